@@ -1,0 +1,17 @@
+# Everything comes from Debian; nothing is downloaded. packages.txt lists what to install.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(nanoflann REQUIRED)
+find_package(embree 3 REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(PCAP REQUIRED IMPORTED_TARGET libpcap)
+pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
+
+# Debian's liblzf ships neither a CMake file nor a pkg-config file.
+find_path(LZF_INCLUDE_DIR liblzf/lzf.h REQUIRED)
+find_library(LZF_LIBRARY lzf REQUIRED)
+add_library(lzf INTERFACE IMPORTED)
+target_include_directories(lzf INTERFACE "${LZF_INCLUDE_DIR}")
+target_link_libraries(lzf INTERFACE "${LZF_LIBRARY}")

@@ -1,0 +1,13 @@
+#include "drivers/any_decoder.hpp"
+
+namespace landfix::drivers {
+
+DecodeResult AnyDecoder::decode(const Packet& packet, SweepPair& sweeps) noexcept {
+  return std::visit([&](auto& decoder) noexcept { return decoder.decode(packet, sweeps); }, decoder_);
+}
+
+bool AnyDecoder::flush(SweepPair& sweeps) noexcept {
+  return std::visit([&](auto& decoder) noexcept { return decoder.flush(sweeps); }, decoder_);
+}
+
+}  // namespace landfix::drivers

@@ -1,0 +1,27 @@
+// The decoder of whichever sensor there is: the choice is made once a packet, not once a point.
+#pragma once
+
+#include <variant>
+
+#include "drivers/decoder.hpp"
+#include "drivers/hesai/pandar64_decoder.hpp"
+#include "drivers/velodyne/vlp16_decoder.hpp"
+
+namespace landfix::drivers {
+
+/// Made by make_decoder (drivers/make_decoder.hpp).
+class AnyDecoder {
+ public:
+  using Alternatives = std::variant<velodyne::Vlp16Decoder, hesai::Pandar64Decoder>;
+
+  explicit AnyDecoder(const Alternatives& decoder) noexcept : decoder_(decoder) {}
+
+  [[nodiscard]] DecodeResult decode(const Packet& packet, SweepPair& sweeps) noexcept;
+  [[nodiscard]] bool flush(SweepPair& sweeps) noexcept;
+
+ private:
+  Alternatives decoder_;
+};
+static_assert(PacketDecoder<AnyDecoder>);
+
+}  // namespace landfix::drivers

@@ -1,0 +1,20 @@
+// What a user may choose about decoding; the defaults are what to drive with.
+#pragma once
+
+#include <limits>
+
+namespace landfix::drivers {
+
+struct DecoderOptions {
+  double cut_deg = 0.0;  ///< azimuth of the cut between sweeps, clockwise from the front
+  double min_range_m = 0.0;
+  double max_range_m = std::numeric_limits<double>::infinity();
+
+  // To compare with clouds that leave them out.
+  bool firing_time_azimuth =
+      true;                      ///< turn each beam on by the time between its firing and the block's azimuth
+  bool vertical_offsets = true;  ///< Velodyne: heights of the beams' origins
+  bool optical_centre = true;    ///< Hesai: the beams start beside the axis of rotation
+};
+
+}  // namespace landfix::drivers

@@ -1,0 +1,115 @@
+#include "drivers/hesai/calibration.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace landfix::drivers::hesai {
+namespace {
+
+constexpr double kMaxAngleDeg = 90.0;
+
+struct Channel {
+  double number = 0.0;
+  double elevation_deg = 0.0;
+  double azimuth_offset_deg = 0.0;
+};
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r";
+  const auto first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+/// Cuts what is before the first `separator` off `text`.
+std::string_view take_until(std::string_view& text, char separator) {
+  const auto end = std::min(text.find(separator), text.size());
+  const std::string_view taken = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return taken;
+}
+
+std::optional<double> number(std::string_view text) {
+  text = trimmed(text);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+/// Nothing where the line is not three numbers: a header, a hash, blank.
+std::optional<Channel> parse_line(std::string_view line) {
+  std::array<double, 3> values{};
+  for (double& value : values) {
+    const auto parsed = number(take_until(line, ','));
+    if (!parsed) return std::nullopt;
+    value = *parsed;
+  }
+  if (!trimmed(line).empty()) return std::nullopt;
+  return Channel{values[0], values[1], values[2]};
+}
+
+[[noreturn]] void fail(std::string_view name, std::size_t line, const std::string& what) {
+  throw std::runtime_error(std::string(name) + ":" + std::to_string(line) + ": " + what);
+}
+
+void rank_rings(std::vector<Beam>& beams) {
+  std::vector<std::size_t> order(beams.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return beams[a].elevation_deg < beams[b].elevation_deg;
+  });
+  for (std::size_t rank = 0; rank < order.size(); ++rank) {
+    beams[order[rank]].ring = static_cast<std::uint16_t>(rank);
+  }
+}
+
+/// Puts a channel into its place, if it is one and has not been seen.
+void place(const Channel& channel, std::string_view name, std::size_t line, std::vector<Beam>& beams,
+           std::vector<bool>& seen) {
+  const auto count = static_cast<double>(beams.size());
+  if (channel.number < 1.0 || channel.number > count || channel.number != std::floor(channel.number)) {
+    fail(name, line,
+         "channel is not one of 1 to " + std::to_string(beams.size()) + ": is the file another sensor's?");
+  }
+  const auto index = static_cast<std::size_t>(channel.number) - 1;
+  if (seen[index]) fail(name, line, "channel " + std::to_string(index + 1) + " is given twice");
+  if (std::abs(channel.elevation_deg) > kMaxAngleDeg || std::abs(channel.azimuth_offset_deg) > kMaxAngleDeg) {
+    fail(name, line, "angle is beyond 90 degrees: expected channel,elevation_deg,azimuth_deg");
+  }
+  seen[index] = true;
+  beams[index].elevation_deg = channel.elevation_deg;
+  beams[index].azimuth_offset_deg = channel.azimuth_offset_deg;
+}
+
+}  // namespace
+
+std::vector<Beam> parse_calibration(std::span<const std::byte> file, std::string_view name,
+                                    std::span<const Beam> table) {
+  std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  std::vector<Beam> beams(table.begin(), table.end());
+  std::vector<bool> seen(beams.size(), false);
+  std::size_t line = 0;
+  while (!text.empty()) {
+    ++line;
+    if (const auto channel = parse_line(take_until(text, '\n'))) place(*channel, name, line, beams, seen);
+  }
+  const auto missing = std::find(seen.begin(), seen.end(), false);
+  if (missing != seen.end()) {
+    fail(name, line,
+         "channel " + std::to_string(missing - seen.begin() + 1) + " of " + std::to_string(beams.size()) +
+             " is missing: read the calibration from the sensor again");
+  }
+  rank_rings(beams);
+  return beams;
+}
+
+}  // namespace landfix::drivers::hesai

@@ -1,0 +1,51 @@
+// Pandar64: 64 lasers, one firing of all a block (Pandar64 User Manual).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "drivers/beam.hpp"
+#include "drivers/block_projector.hpp"
+#include "drivers/decoder.hpp"
+#include "drivers/decoder_options.hpp"
+#include "drivers/hesai/wire.hpp"
+#include "drivers/sweep_builder.hpp"
+
+namespace landfix::drivers::hesai {
+
+class Pandar64Decoder {
+ public:
+  /// `beams`: channels 1 to 64, best from the unit's own calibration.
+  Pandar64Decoder(std::span<const Beam, kPandar64Lasers> beams, const DecoderOptions& options) noexcept;
+
+  [[nodiscard]] DecodeResult decode(const Packet& packet, SweepPair& sweeps) noexcept;
+  [[nodiscard]] bool flush(SweepPair& sweeps) noexcept { return builder_.flush(sweeps); }
+
+ private:
+  /// What a packet says, once it is known to be sound.
+  struct Header {
+    std::array<std::uint16_t, kMaxBlocks>
+        firing_azimuth_centideg{};  ///< one a firing: a dual pair counts once
+    std::size_t firings = 0;
+    std::size_t returns = 1;  ///< blocks a firing
+    unsigned range_unit_mm = 0;
+    unsigned motor_rpm = 0;
+    std::int64_t packed_ns = 0;  ///< sensor time at which the packet was finished
+    std::optional<std::uint32_t> sequence;
+  };
+  [[nodiscard]] DecodeStatus validate(std::span<const std::byte> payload, Header& header) const noexcept;
+  [[nodiscard]] DecodeStatus validate_azimuths(std::span<const std::byte> payload,
+                                               Header& header) const noexcept;
+  void begin_packet(const Header& header, std::int64_t first_firing_ns, std::int64_t receive_utc_ns,
+                    SweepPair& sweeps) noexcept;
+
+  BlockProjector projector_;
+  SweepBuilder builder_;
+  DecoderOptions options_;
+  std::int64_t earliest_firing_ns_;  ///< of a block, relative to its end; negative
+};
+static_assert(PacketDecoder<Pandar64Decoder>);
+
+}  // namespace landfix::drivers::hesai

@@ -1,0 +1,21 @@
+// Fields of wire formats in little-endian order, at any alignment.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace landfix::drivers {
+
+static_assert(std::endian::native == std::endian::little, "the loads below are plain copies");
+
+/// An unsigned integer of `bytes`, least significant byte first. The caller has checked the size.
+template <class Integer>
+[[nodiscard]] inline Integer load_little_endian(const std::byte* bytes) noexcept {
+  Integer value;
+  std::memcpy(&value, bytes, sizeof(value));
+  return value;
+}
+
+}  // namespace landfix::drivers

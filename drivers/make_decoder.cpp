@@ -1,0 +1,46 @@
+#include "drivers/make_decoder.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace landfix::drivers {
+namespace {
+
+void check(const DecoderOptions& options) {
+  if (!std::isfinite(options.cut_deg))
+    throw std::runtime_error("cut_deg is not a number: give an angle in degrees");
+  if (!(options.min_range_m >= 0.0 && options.min_range_m < options.max_range_m)) {
+    throw std::runtime_error("min_range_m must be at least 0 and less than max_range_m");
+  }
+}
+
+/// Exactly N beams of the table or of the unit.
+template <std::size_t N>
+std::span<const Beam, N> beams_of(const SensorModel& model, std::span<const Beam> calibration) {
+  const auto beams = calibration.empty() ? model.beams : calibration;
+  if (beams.size() != N) {
+    throw std::runtime_error(std::string(model.name) + " has " + std::to_string(N) +
+                             " beams, its calibration " + std::to_string(beams.size()) +
+                             ": is it another sensor's?");
+  }
+  return beams.first<N>();
+}
+
+}  // namespace
+
+AnyDecoder make_decoder(const SensorModel& model, const DecoderOptions& options,
+                        std::span<const Beam> calibration) {
+  check(options);
+  switch (model.format) {
+    case PacketFormat::velodyne_vlp16:
+      return AnyDecoder(velodyne::Vlp16Decoder(beams_of<velodyne::kVlp16Lasers>(model, calibration),
+                                               model.product_id, options));
+    case PacketFormat::hesai_pandar64:
+      return AnyDecoder(
+          hesai::Pandar64Decoder(beams_of<hesai::kPandar64Lasers>(model, calibration), options));
+  }
+  throw std::runtime_error(std::string(model.name) + ": its packet format has no decoder");
+}
+
+}  // namespace landfix::drivers

@@ -1,0 +1,97 @@
+// A sweep: the points of one revolution, in memory that the caller lends.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "drivers/point.hpp"
+
+namespace landfix::drivers {
+
+/// Whose clock the times of a sweep come from.
+enum class TimeSource : std::uint8_t {
+  sensor,   ///< the sensor's clock is synchronised to UTC
+  receive,  ///< it is not: its spacing is kept, its offset comes from the times of receipt
+};
+
+[[nodiscard]] constexpr std::string_view to_string(TimeSource source) noexcept {
+  return source == TimeSource::sensor ? "sensor" : "receive";
+}
+
+/// Points in the order of the packets. Never grows: a point that does not fit is counted.
+class Sweep {
+ public:
+  Sweep() = default;
+  explicit Sweep(std::span<Point> storage) noexcept : storage_(storage) {}
+
+  /// Empties the sweep. `start_utc_ns`: time of its first firing, Unix nanoseconds UTC; `at_cut`: it begins
+  /// where the azimuth passed the cut, not in the middle of a turn.
+  void begin(std::int64_t start_utc_ns, bool at_cut, TimeSource time_source) noexcept {
+    size_ = 0;
+    overflowed_ = 0;
+    last_time_s_ = 0.0F;
+    start_utc_ns_ = start_utc_ns;
+    complete_ = at_cut;
+    time_source_ = time_source;
+  }
+
+  void push(const Point& point) noexcept {
+    if (size_ == storage_.size()) {
+      ++overflowed_;
+      complete_ = false;
+      return;
+    }
+    storage_[size_++] = point;
+    last_time_s_ = std::max(last_time_s_, point.time_s);
+  }
+
+  /// Something of this turn is missing: it did not end at the cut, or packets were lost.
+  void mark_partial() noexcept { complete_ = false; }
+
+  [[nodiscard]] std::span<const Point> points() const noexcept { return storage_.first(size_); }
+  [[nodiscard]] std::int64_t start_utc_ns() const noexcept { return start_utc_ns_; }
+  /// Time of the last point: the time that the sweep's pose holds for.
+  [[nodiscard]] std::int64_t end_utc_ns() const noexcept {
+    return start_utc_ns_ + static_cast<std::int64_t>(static_cast<double>(last_time_s_) * 1e9);
+  }
+  [[nodiscard]] float last_time_s() const noexcept { return last_time_s_; }
+  /// A whole turn, from cut to cut.
+  [[nodiscard]] bool complete() const noexcept { return complete_; }
+  [[nodiscard]] TimeSource time_source() const noexcept { return time_source_; }
+  [[nodiscard]] std::size_t overflowed() const noexcept { return overflowed_; }
+
+ private:
+  std::span<Point> storage_;
+  std::size_t size_ = 0;
+  std::size_t overflowed_ = 0;
+  std::int64_t start_utc_ns_ = 0;
+  float last_time_s_ = 0.0F;
+  bool complete_ = false;
+  TimeSource time_source_ = TimeSource::receive;
+};
+
+/// The sweep that fills and the one that was filled before it. A packet may hold the end of one turn and the
+/// start of the next; the completed sweep stays valid until the next cut.
+class SweepPair {
+ public:
+  /// `storage` is split in two halves, each the capacity of one sweep.
+  explicit SweepPair(std::span<Point> storage) noexcept
+      : current_(storage.first(storage.size() / 2)),
+        completed_(storage.subspan(storage.size() / 2, storage.size() / 2)) {}
+
+  [[nodiscard]] Sweep& current() noexcept { return current_; }
+  [[nodiscard]] const Sweep& completed() const noexcept { return completed_; }
+
+  /// The current sweep becomes the completed one.
+  void cut() noexcept { std::swap(current_, completed_); }
+
+ private:
+  Sweep current_;
+  Sweep completed_;
+};
+
+}  // namespace landfix::drivers

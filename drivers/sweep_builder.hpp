@@ -1,0 +1,67 @@
+// Puts the blocks of packets into sweeps: when each begins, whether it is whole, and on whose clock.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "drivers/sensor_clock.hpp"
+#include "drivers/sweep.hpp"
+#include "drivers/sweep_cutter.hpp"
+
+namespace landfix::drivers {
+
+/// What a packet says about its place among the others. Sensor times are the sensor's own clock.
+struct PacketTiming {
+  std::int64_t first_firing_ns = 0;       ///< sensor time of the packet's earliest firing
+  std::int64_t receive_utc_ns = 0;        ///< when it was received
+  std::int64_t duration_ns = 0;           ///< until the next packet's earliest firing
+  std::int64_t turn_ns = 0;               ///< time of one turn at the present speed
+  std::optional<std::uint32_t> sequence;  ///< counts packets, where the sensor does
+};
+
+/// A sweep is complete if it runs from cut to cut and no packet of it is missing.
+class SweepBuilder {
+ public:
+  explicit SweepBuilder(double cut_deg) noexcept : cutter_(cut_deg) {}
+
+  [[nodiscard]] const SensorClock& clock() const noexcept { return clock_; }
+  /// See SweepCutter::would_cut_twice: to be asked before the packet is begun.
+  [[nodiscard]] bool would_cut_twice(std::span<const std::uint16_t> azimuths_centideg) const noexcept {
+    return cutter_.would_cut_twice(azimuths_centideg);
+  }
+
+  /// Begins a packet that has been found valid. `first_azimuth_centideg` is its first block's. Cuts where the
+  /// turn has lasted too long (1.5 nominal turns) or a clock has jumped.
+  void begin_packet(const PacketTiming& packet, std::uint16_t first_azimuth_centideg,
+                    SweepPair& sweeps) noexcept;
+
+  /// Begins a block, cutting before it if its azimuth says so. Returns the time of its earliest firing since
+  /// the start of the sweep [s], >= 0.
+  [[nodiscard]] float begin_block(std::uint16_t azimuth_centideg, std::int64_t first_firing_ns,
+                                  SweepPair& sweeps) noexcept;
+
+  /// Whether the packet has completed a sweep.
+  [[nodiscard]] bool has_cut() const noexcept { return has_cut_; }
+
+  /// Hands over what there is of the current sweep, as partial. False if it has no points.
+  [[nodiscard]] bool flush(SweepPair& sweeps) noexcept;
+
+ private:
+  [[nodiscard]] bool follows_a_loss(const PacketTiming& packet) noexcept;
+  void close(SweepPair& sweeps) noexcept;
+
+  SensorClock clock_;
+  SweepCutter cutter_;
+  std::int64_t sweep_start_ns_ = 0;
+  std::int64_t last_packet_ns_ = 0;
+  std::optional<std::uint32_t> last_sequence_;
+  int last_azimuth_centideg_ = 0;
+  std::optional<int> dark_from_centideg_;  ///< where the last gap in time began
+  bool started_ = false;
+  bool open_ = false;     ///< the current sweep has begun
+  bool lost_ = false;     ///< packets are missing before the block to come
+  bool has_cut_ = false;  ///< in this packet
+};
+
+}  // namespace landfix::drivers

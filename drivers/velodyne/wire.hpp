@@ -1,0 +1,45 @@
+// The data packet of Velodyne's rotating sensors (VLP-16 User Manual 63-9243 Rev D, section 9.3).
+//
+//   0            100           ...  1100          1200        1204    1205   1206
+//   | block 0    | block 1     | ...| block 11    | u32 time  | mode  | product |
+//   block: | u16 flag | u16 azimuth | 32 x (u16 range, u8 intensity) |
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "drivers/block_projector.hpp"
+#include "drivers/little_endian.hpp"
+
+namespace landfix::drivers::velodyne {
+
+inline constexpr std::size_t kBlocks = 12;
+inline constexpr std::size_t kBlockSlots = 32;
+inline constexpr std::uint16_t kBlockFlag = 0xEEFF;
+
+/// Everything on the wire is bytes: no alignment is assumed, fields are read by load_little_endian.
+struct WireBlock {
+  std::byte flag[2];
+  std::byte azimuth_centideg[2];
+  std::byte slots[kBlockSlots * kSlotBytes];
+};
+static_assert(sizeof(WireBlock) == 100);
+
+struct WirePacket {
+  WireBlock blocks[kBlocks];
+  std::byte top_of_hour_us[4];
+  std::byte return_mode;
+  std::byte product;
+};
+static_assert(sizeof(WirePacket) == 1206);
+static_assert(alignof(WirePacket) == 1);
+
+/// The byte `return_mode`.
+enum class ReturnMode : std::uint8_t {
+  unknown = 0x00,  ///< firmware before 2016 leaves both factory bytes zero
+  strongest = 0x37,
+  last = 0x38,
+  dual = 0x39,
+};
+
+}  // namespace landfix::drivers::velodyne

@@ -1,0 +1,107 @@
+// Bad input is normal: whatever arrives is decoded or refused whole, and never believed.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "drivers/decoder_bench.hpp"
+#include "support/synthetic_packets.hpp"
+
+namespace landfix::drivers {
+namespace {
+
+using test::DecoderBench;
+
+/// A sound packet of each model, full of returns.
+std::vector<std::byte> sound_packet(std::string_view model) {
+  if (model == "pandar64") {
+    test::Pandar64Packet packet(0x39, 6, 7);
+    packet.set_azimuths(35970, 20, 2);
+    for (std::size_t slot = 0; slot < 64; ++slot) packet.set_return(1, slot, 500);
+    return {packet.bytes().begin(), packet.bytes().end()};
+  }
+  test::VelodynePacket packet(model == "vlp16" ? 0x22 : 0x24, 0x39);
+  packet.set_azimuths(35950, 40, 2);
+  for (std::size_t slot = 0; slot < 32; ++slot) packet.set_return(1, slot, 500);
+  return {packet.bytes().begin(), packet.bytes().end()};
+}
+
+class HostilePacket : public testing::TestWithParam<const char*> {
+ protected:
+  static void expect_sane(DecoderBench& bench) {
+    for (const Point& point : bench.points()) {
+      ASSERT_TRUE(std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z));
+      ASSERT_GE(point.time_s, 0.0F);
+      ASSERT_LT(point.ring, 64);
+    }
+  }
+};
+
+TEST_P(HostilePacket, EveryOtherLengthIsRefused) {
+  const auto sound = sound_packet(GetParam());
+  const SensorModel& model = *find_sensor_model(GetParam());
+  DecoderBench bench(GetParam());
+  for (std::size_t size = 0; size <= sound.size() + 8; ++size) {
+    std::vector<std::byte> payload(size);  // its own block of memory: a sanitizer sees a read beyond it
+    std::copy_n(sound.begin(), std::min(size, sound.size()), payload.begin());
+    const bool known = std::ranges::find(model.payload_sizes, size) != model.payload_sizes.end();
+    if (known) continue;
+    EXPECT_EQ(bench.decode(payload).status, DecodeStatus::wrong_size) << size;
+  }
+  EXPECT_TRUE(bench.all_points().empty());
+  EXPECT_EQ(bench.decode(sound).status, DecodeStatus::decoded);
+}
+
+TEST_P(HostilePacket, RandomBytesOfTheRightSizeAreRefused) {
+  std::vector<std::byte> payload(sound_packet(GetParam()).size());
+  DecoderBench bench(GetParam());
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 100'000; ++i) {
+    for (std::size_t at = 0; at + 8 <= payload.size(); at += 8) {
+      const std::uint64_t bits = random();
+      std::memcpy(&payload[at], &bits, sizeof(bits));
+    }
+    ASSERT_NE(bench.decode(payload).status, DecodeStatus::decoded);
+  }
+  EXPECT_TRUE(bench.all_points().empty());
+}
+
+TEST_P(HostilePacket, FlippedBitsAndWildReceiveTimesDoNoHarm) {
+  const auto sound = sound_packet(GetParam());
+  DecoderBench bench(GetParam(), {}, 4000);
+  std::mt19937_64 random(2);
+  std::uniform_int_distribution<std::size_t> any_bit(0, sound.size() * 8 - 1);
+  std::uniform_int_distribution<std::int64_t> any_time(std::numeric_limits<std::int64_t>::min(),
+                                                       std::numeric_limits<std::int64_t>::max());
+  int decoded = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    auto payload = sound;
+    for (int flips = 0; flips < 1 + i % 4; ++flips) {
+      const std::size_t bit = any_bit(random);
+      payload[bit / 8] ^= std::byte{1} << (bit % 8);
+    }
+    const bool was_decoded = bench.decode(payload, any_time(random)).status == DecodeStatus::decoded;
+    decoded += was_decoded ? 1 : 0;
+    expect_sane(bench);
+  }
+  EXPECT_GT(decoded, 1000) << "flips among the returns are not seen";
+}
+
+TEST_P(HostilePacket, AFullSweepCountsWhatDoesNotFit) {
+  DecoderBench bench(GetParam(), {}, 10);
+  ASSERT_EQ(bench.decode(sound_packet(GetParam())).status, DecodeStatus::decoded);
+  ASSERT_TRUE(bench.swept().empty() ? bench.flush() : true);
+  const auto& sweep = bench.swept().at(0);
+  EXPECT_EQ(sweep.points.size(), 10U);
+  EXPECT_EQ(sweep.overflowed, GetParam() == std::string_view("pandar64") ? 54U : 22U);
+  EXPECT_FALSE(sweep.complete);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryModel, HostilePacket, testing::Values("vlp16", "vlp16hires", "pandar64"),
+                         [](const auto& model) { return std::string(model.param); });
+
+}  // namespace
+}  // namespace landfix::drivers

@@ -1,0 +1,108 @@
+#include "drivers/sensor_clock.hpp"
+
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace landfix::drivers {
+namespace {
+
+constexpr std::int64_t kSecondNs = 1'000'000'000;
+constexpr std::int64_t kHourNs = 3600 * kSecondNs;
+constexpr std::int64_t kHourUtcNs = 1'700'002'800 * kSecondNs;
+static_assert(kHourUtcNs % kHourNs == 0);
+
+TEST(SensorClock, ExpandsTheHourNearTheTimeOfReceipt) {
+  const SensorClock clock;
+  EXPECT_EQ(clock.expand_top_of_hour(10'000'000, kHourUtcNs + 12 * kSecondNs), kHourUtcNs + 10 * kSecondNs);
+  // Sent just before the hour, received just after it, and the other way about.
+  EXPECT_EQ(clock.expand_top_of_hour(3'599'999'000, kHourUtcNs + 1'000'000), kHourUtcNs - 1'000'000);
+  EXPECT_EQ(clock.expand_top_of_hour(1000, kHourUtcNs - 1'000'000), kHourUtcNs + 1'000'000);
+  // Counted on over the hour.
+  EXPECT_EQ(clock.expand_top_of_hour(3'600'060'000, kHourUtcNs + kSecondNs / 10), kHourUtcNs + 60'000'000);
+}
+
+TEST(SensorClock, TrustsASynchronisedSensor) {
+  SensorClock clock;
+  EXPECT_FALSE(clock.advance(kHourUtcNs, kHourUtcNs + 2'000'000));
+  EXPECT_EQ(clock.time_source(), TimeSource::sensor);
+  EXPECT_FALSE(clock.advance(kHourUtcNs + 1'000'000, kHourUtcNs + 9'000'000));
+  EXPECT_EQ(clock.to_utc_ns(kHourUtcNs + 1'000'000), kHourUtcNs + 1'000'000);
+}
+
+TEST(SensorClock, AnchorsAnUnsynchronisedSensorToThePacketDelayedLeast) {
+  SensorClock clock;
+  const std::int64_t offset_ns = 100'000 * kSecondNs;
+  std::mt19937 random(4);
+  std::uniform_int_distribution<std::int64_t> delay_ns(1'000'000, 20'000'000);
+  for (std::int64_t i = 0; i < 2000; ++i) {
+    const std::int64_t sensor_ns = kHourUtcNs + i * 1'327'104;
+    EXPECT_FALSE(clock.advance(sensor_ns, sensor_ns + offset_ns + (i == 500 ? 500'000 : delay_ns(random))));
+  }
+  EXPECT_EQ(clock.time_source(), TimeSource::receive);
+  const std::int64_t late_ns = clock.to_utc_ns(kHourUtcNs) - kHourUtcNs - offset_ns;
+  EXPECT_GE(late_ns, 500'000);
+  EXPECT_LE(late_ns, 500'000 + 2 * 100'000) << "2 s later it has leaked by 100 ppm";
+}
+
+TEST(SensorClock, FollowsTheDriftOfTheCrystals) {
+  SensorClock clock;
+  std::int64_t late_ns = 0;
+  for (int second = 0; second < 3600; ++second) {
+    const std::int64_t sensor_ns = kHourUtcNs + second * kSecondNs;
+    const std::int64_t receive_ns = sensor_ns + 5 * kHourNs + second * 50'000;  // 50 ppm slow
+    EXPECT_FALSE(clock.advance(sensor_ns, receive_ns));
+    late_ns = receive_ns - clock.to_utc_ns(sensor_ns);
+  }
+  EXPECT_EQ(late_ns, 0);
+}
+
+TEST(SensorClock, StartsAnewWhenAClockIsSet) {
+  SensorClock clock;
+  EXPECT_FALSE(clock.advance(kHourUtcNs, kHourUtcNs + 1000 * kSecondNs));
+  EXPECT_EQ(clock.time_source(), TimeSource::receive);
+  const std::int64_t now_ns = kHourUtcNs + 1001 * kSecondNs;
+  EXPECT_TRUE(clock.advance(now_ns - 1'000'000, now_ns)) << "the sensor has found its satellites";
+  EXPECT_EQ(clock.time_source(), TimeSource::sensor);
+  EXPECT_EQ(clock.to_utc_ns(now_ns), now_ns);
+  EXPECT_TRUE(clock.advance(now_ns, now_ns - 50 * kSecondNs)) << "the computer was set";
+  EXPECT_EQ(clock.time_source(), TimeSource::receive);
+  EXPECT_TRUE(clock.advance(now_ns - 20'000'000, now_ns - 50 * kSecondNs)) << "back, by little";
+}
+
+TEST(SensorClock, CountsOnThroughTheHourWhereverTheSensorStands) {
+  // Half an hour from UTC, where the nearest hour is a matter of microseconds.
+  SensorClock clock;
+  std::int64_t last_ns = 0;
+  std::mt19937 random(5);
+  std::uniform_int_distribution<std::int64_t> delay_ns(0, 5'000'000);
+  for (int i = 0; i < 100'000; ++i) {
+    const auto counter_us = static_cast<std::uint32_t>(
+        (3'590'000'000ULL + static_cast<std::uint64_t>(i) * 1000U) % 3'600'000'000U);
+    const std::int64_t receive_ns = kHourUtcNs + 1790 * kSecondNs + i * 1'000'000LL + delay_ns(random);
+    const std::int64_t sensor_ns = clock.expand_top_of_hour(counter_us, receive_ns);
+    EXPECT_FALSE(clock.advance(sensor_ns, receive_ns)) << i;
+    if (i > 0) {
+      ASSERT_EQ(sensor_ns - last_ns, 1'000'000) << i;
+    }
+    last_ns = sensor_ns;
+  }
+}
+
+TEST(SensorClock, IsNotOverthrownByWildTimes) {
+  SensorClock clock;
+  std::mt19937_64 random(6);
+  std::uniform_int_distribution<std::int64_t> any(std::numeric_limits<std::int64_t>::min(),
+                                                  std::numeric_limits<std::int64_t>::max());
+  for (int i = 0; i < 10'000; ++i) {
+    const std::int64_t receive_ns = any(random);
+    const auto counter_us = static_cast<std::uint32_t>(random() % 3'601'000'000U);
+    const std::int64_t sensor_ns = clock.expand_top_of_hour(counter_us, receive_ns);
+    static_cast<void>(clock.advance(sensor_ns, receive_ns));
+    EXPECT_LE(clock.to_utc_ns(sensor_ns), SensorClock::kLatestNs + kHourNs);
+  }
+}
+
+}  // namespace
+}  // namespace landfix::drivers

@@ -1,0 +1,53 @@
+#include "drivers/sensor_model.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/synthetic_packets.hpp"
+
+namespace landfix::drivers {
+namespace {
+
+TEST(SensorModel, RingsRankTheElevationsOfEveryTable) {
+  for (const SensorModel& model : sensor_models()) {
+    std::vector<double> by_ring(model.beams.size(), 1e9);
+    for (const Beam& beam : model.beams) by_ring.at(beam.ring) = beam.elevation_deg;
+    EXPECT_TRUE(std::is_sorted(by_ring.begin(), by_ring.end())) << model.name;
+    EXPECT_LT(by_ring.back(), 1e9) << model.name << ": a ring has no beam";
+    EXPECT_NEAR(by_ring.back(), model.vertical_up_deg, 0.2) << model.name;
+    EXPECT_NEAR(by_ring.front(), model.vertical_down_deg, 0.2) << model.name;
+  }
+}
+
+TEST(SensorModel, NamesAreUniqueAndFound) {
+  for (const SensorModel& model : sensor_models()) EXPECT_EQ(find_sensor_model(model.name), &model);
+  EXPECT_EQ(find_sensor_model("vlp17"), nullptr);
+  EXPECT_EQ(find_sensor_model(""), nullptr);
+}
+
+TEST(SensorModel, HoldsASweepOfDualReturnsAtTheSlowestRotation) {
+  EXPECT_GT(find_sensor_model("vlp16")->max_points_per_sweep(), 115'741U);
+  EXPECT_GT(find_sensor_model("pandar64")->max_points_per_sweep(), 230'400U);
+}
+
+TEST(SensorModel, IsRecognisedByItsOwnPacketsOnly) {
+  const test::VelodynePacket puck(0x22);
+  const test::VelodynePacket hires(0x24);
+  const test::Pandar64Packet pandar;
+  const auto looks = [](const char* name, std::span<const std::byte> payload) {
+    return looks_like(*find_sensor_model(name), payload);
+  };
+  EXPECT_TRUE(looks("vlp16", puck.bytes()));
+  EXPECT_FALSE(looks("vlp16", hires.bytes()));
+  EXPECT_TRUE(looks("vlp16hires", hires.bytes()));
+  EXPECT_TRUE(looks("pandar64", pandar.bytes()));
+  EXPECT_FALSE(looks("pandar64", puck.bytes()));
+  EXPECT_FALSE(looks("vlp16", pandar.bytes()));
+  EXPECT_FALSE(looks("vlp16", puck.bytes().first(1205)));
+  EXPECT_FALSE(looks("vlp16", {}));
+}
+
+}  // namespace
+}  // namespace landfix::drivers
