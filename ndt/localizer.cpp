@@ -1,0 +1,102 @@
+#include "ndt/localizer.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace landfix::ndt {
+
+std::string_view to_string(State state) noexcept {
+  switch (state) {
+    case State::init:
+      return "INIT";
+    case State::no_data:
+      return "NO_DATA";
+    case State::lost:
+      return "LOST";
+    case State::predicted:
+      return "PREDICTED";
+    case State::degraded:
+      return "DEGRADED";
+    case State::tracking:
+      return "TRACKING";
+  }
+  return "UNKNOWN";
+}
+
+std::string_view to_string(Fit fit) noexcept {
+  switch (fit) {
+    case Fit::none:
+      return "none";
+    case Fit::weak:
+      return "weak";
+    case Fit::good:
+      return "good";
+  }
+  return "unknown";
+}
+
+Fit judge(const MatchResult& match, const FitGates& gates) noexcept {
+  const double likelihood = match.nearest_voxel_likelihood / match.best_likelihood;
+  if (!match.converged || !(likelihood >= gates.believed_likelihood)) return Fit::none;
+  const double matched_share = static_cast<double>(match.points_matched) / static_cast<double>(match.points);
+  return likelihood >= gates.good_likelihood && matched_share >= gates.good_matched_share ? Fit::good
+                                                                                          : Fit::weak;
+}
+
+Localizer::Localizer(const VoxelMap& map, const LocalizerSettings& settings,
+                     const Pose& initial_pose) noexcept
+    : map_(map), settings_(settings), matcher_(settings.matcher) {
+  last_.pose = initial_pose;
+}
+
+Fix Localizer::localize(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns) noexcept {
+  if (!std::exchange(any_sweep_, true)) {
+    last_.stamp_utc_ns = stamp_utc_ns;
+    last_matched_ = last_;
+  }
+  // Where a clock was set back, time begins anew: nothing is predicted backwards, and LOST is still in reach.
+  last_.stamp_utc_ns = std::min(last_.stamp_utc_ns, stamp_utc_ns);
+  last_matched_.stamp_utc_ns = std::min(last_matched_.stamp_utc_ns, stamp_utc_ns);
+  const Pose prediction = predict(last_, velocity_, stamp_utc_ns);
+  const auto seconds_since = [stamp_utc_ns](const StampedPose& before) {
+    return static_cast<double>(stamp_utc_ns - before.stamp_utc_ns) * 1e-9;
+  };
+  Fix fix{.at = {stamp_utc_ns, prediction}, .match = matcher_.match(map_, points_m, prediction)};
+  fix.state = next_state(fix);
+  if (fix.state >= State::degraded) {
+    fix.at.pose = fix.match.pose;
+    if (state_ != State::init && seconds_since(last_matched_) >= settings_.shortest_baseline_s) {
+      velocity_ = velocity_between(last_matched_, fix.at);
+      last_matched_ = fix.at;
+    } else if (state_ == State::init) {
+      last_matched_ = fix.at;
+    }
+  } else if (fix.state == State::lost) {
+    // Wait where the last usable pose was: after a leap of the clock the prediction may be anywhere.
+    fix.at.pose = last_.pose;
+    velocity_.setZero();
+  }
+  fix.velocity = velocity_;
+  last_ = fix.at;
+  state_ = fix.state;
+  return fix;
+}
+
+State Localizer::next_state(const Fix& fix) const noexcept {
+  const Pose& prediction = fix.at.pose;
+  const double since_last_s = static_cast<double>(fix.at.stamp_utc_ns - last_.stamp_utc_ns) * 1e-9;
+  const double share =
+      std::clamp(since_last_s / settings_.innovation_full_after_s, settings_.innovation_least_share, 1.0);
+  const bool is_near = (fix.match.pose.translation() - prediction.translation()).norm() <
+                           share * settings_.innovation_limit_m &&
+                       angle_between(fix.match.pose, prediction) < share * settings_.innovation_limit_rad;
+  const Fit fit = judge(fix.match, settings_.gates);
+  if (fit != Fit::none && (is_near || state_ == State::init)) {
+    return fit == Fit::good ? State::tracking : State::degraded;
+  }
+  if (state_ == State::init || state_ == State::lost) return state_;
+  const double unmatched_s = static_cast<double>(fix.at.stamp_utc_ns - last_matched_.stamp_utc_ns) * 1e-9;
+  return unmatched_s > settings_.lost_after_s ? State::lost : State::predicted;
+}
+
+}  // namespace landfix::ndt

@@ -1,0 +1,97 @@
+// The state machine around the matcher: from one pose to the next, and what may be said of each.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include <Eigen/Core>
+
+#include "ndt/matcher.hpp"
+#include "ndt/motion.hpp"
+#include "ndt/voxel_map.hpp"
+
+namespace landfix::ndt {
+
+/// The same numbers everywhere: in files, on the bus, in metrics.
+enum class State : std::uint8_t {
+  init = 0,       ///< no sweep has been matched yet
+  no_data = 1,    ///< the sensor is silent
+  lost = 2,       ///< predicted for too long: the pose is not to be used
+  predicted = 3,  ///< this sweep could not be matched; the pose is where the motion leads
+  degraded = 4,   ///< matched, but the map explains the sweep badly
+  tracking = 5,
+};
+[[nodiscard]] std::string_view to_string(State state) noexcept;
+
+/// Whether a pose of this state is one: PREDICTED, DEGRADED, TRACKING.
+[[nodiscard]] constexpr bool is_usable(State state) noexcept { return state >= State::predicted; }
+
+/// When a match is believed. Likelihoods are shares of the best score that a point can have
+/// (ScoreConstants::d1), so that they hold at any resolution: the usual gate of the nearest voxel
+/// likelihood, 2.3 at 2 m, is 0.55.
+struct FitGates {
+  double believed_likelihood = 0.3;
+  double good_likelihood = 0.55;
+  double good_matched_share = 0.5;  ///< of the points, those with a voxel near
+};
+
+/// How well the map explains a scan at the pose that was found.
+enum class Fit : std::uint8_t {
+  none,  ///< the pose is not to be believed
+  weak,
+  good,
+};
+[[nodiscard]] std::string_view to_string(Fit fit) noexcept;
+[[nodiscard]] Fit judge(const MatchResult& match, const FitGates& gates) noexcept;
+
+struct LocalizerSettings {
+  MatcherSettings matcher;
+  FitGates gates;
+  /// A match farther from the prediction is not believed; while INIT the guess is the user's and any is.
+  double innovation_limit_m = 1.5;
+  double innovation_limit_rad = 0.15;
+  /// Sooner after the sweep before, in proportion less is believed, down to this share: a packet that comes
+  /// twice or out of order at the cut leaves a splinter of a sweep, whose few points may match anywhere.
+  double innovation_full_after_s = 0.05;
+  double innovation_least_share = 0.07;
+  double lost_after_s = 1.0;  ///< of prediction
+  /// Over a shorter time the difference of two poses is more noise than velocity.
+  double shortest_baseline_s = 0.05;
+};
+
+/// A pose and what it is worth.
+struct Fix {
+  StampedPose at;
+  State state = State::init;
+  Velocity velocity = Velocity::Zero();
+  MatchResult match;
+};
+
+/// One sweep after the other; no memory of its own beyond this object.
+class Localizer {
+ public:
+  /// The memory that `map` views must outlive it. `initial_pose`: map <- vehicle at the first sweep.
+  Localizer(const VoxelMap& map, const LocalizerSettings& settings, const Pose& initial_pose) noexcept;
+
+  /// The velocity to undo the next sweep's distortion with.
+  [[nodiscard]] const Velocity& velocity() const noexcept { return velocity_; }
+
+  /// `points_m`: deskewed and filtered, frame `vehicle` at `stamp_utc_ns`, the end of the sweep. Where
+  /// stamps do not rise the prediction stands still.
+  [[nodiscard]] Fix localize(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns) noexcept;
+
+ private:
+  [[nodiscard]] State next_state(const Fix& fix) const noexcept;
+
+  VoxelMap map_;
+  LocalizerSettings settings_;
+  Matcher matcher_;
+  StampedPose last_;          ///< published
+  StampedPose last_matched_;  ///< by a match, TRACKING or DEGRADED
+  Velocity velocity_ = Velocity::Zero();
+  State state_ = State::init;
+  bool any_sweep_ = false;
+};
+
+}  // namespace landfix::ndt

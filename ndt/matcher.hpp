@@ -1,0 +1,55 @@
+// The matcher: Newton's method that moves a scan until the map explains it best.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "ndt/pose.hpp"
+#include "ndt/score.hpp"
+#include "ndt/voxel_map.hpp"
+
+namespace landfix::ndt {
+
+struct MatcherSettings {
+  int max_iterations = 50;      ///< evaluations of the objective, all phases together
+  double outlier_ratio = 0.55;  ///< 0: the plain exponential
+  double step_limit_m = 0.3;
+  double step_limit_rad = 0.03;
+  double converged_m = 3e-3;  ///< a step shorter than both ends the search
+  double converged_rad = 3e-4;
+  bool sharpen = true;  ///< finish on the sharp covariances where that can be trusted
+};
+
+struct MatchResult {
+  Pose pose = Pose::Identity();             ///< map <- vehicle
+  Matrix6 covariance = Matrix6::Zero();     ///< x y z roll pitch yaw [m, rad], frame `map`
+  double score = 0.0;                       ///< of the wide covariances, over all points
+  double transformation_probability = 0.0;  ///< score a point
+  double nearest_voxel_likelihood = 0.0;    ///< best voxel's score, mean over the points that have one
+  double best_likelihood = 1.0;             ///< the best score that a point can have with one voxel
+  std::size_t points = 0;
+  std::size_t points_matched = 0;  ///< with a voxel near
+  int iterations = 0;              ///< evaluations of the objective
+  bool converged = false;
+  bool sharpened = false;
+};
+
+/// Each step is tried before it is taken and must not lower the score: the search cannot diverge. No guess,
+/// scan or map makes it fail; what it found says `converged` or not. Where nothing overlaps, the pose is the
+/// guess.
+class Matcher {
+ public:
+  explicit Matcher(const MatcherSettings& settings) noexcept : settings_(settings) {}
+
+  /// `points_m`: the filtered scan, frame `vehicle`. `guess`: map <- vehicle.
+  [[nodiscard]] MatchResult match(const VoxelMap& map, std::span<const Eigen::Vector3f> points_m,
+                                  const Pose& guess) const noexcept;
+
+ private:
+  MatcherSettings settings_;
+};
+
+}  // namespace landfix::ndt

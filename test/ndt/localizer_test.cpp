@@ -1,0 +1,138 @@
+#include "ndt/localizer.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "ndt/random_world.hpp"
+
+namespace landfix::ndt::test {
+namespace {
+
+constexpr std::int64_t kSweep_ns = 100'000'000;
+
+/// A yard, and a vehicle that drives through it at 4 m/s in a gentle curve.
+class Drive : public ::testing::Test {
+ protected:
+  [[nodiscard]] Pose truth(int sweep) const { return start_ * pose_exp(velocity_ * (0.1 * sweep)); }
+
+  [[nodiscard]] std::vector<Eigen::Vector3f> scan(int sweep) const {
+    std::vector<Eigen::Vector3d> cloud = random_yard(1, 41200);
+    cloud.erase(cloud.begin(), cloud.end() - 1200);
+    return seen_from(cloud, truth(sweep));
+  }
+  [[nodiscard]] Fix localize(int sweep) { return localizer_.localize(scan(sweep), kSweep_ns * (10 + sweep)); }
+  [[nodiscard]] Fix see_nothing(int sweep) { return localizer_.localize({}, kSweep_ns * (10 + sweep)); }
+  [[nodiscard]] double error_m(const Fix& fix, int sweep) const {
+    return (fix.at.pose.translation() - truth(sweep).translation()).norm();
+  }
+
+  Velocity velocity_ = (Velocity() << 4.0, 0.0, 0.0, 0.0, 0.0, 0.2).finished();
+  Pose start_ = make_pose({-6.0, 0.0, 0.5}, {.yaw_rad = -0.1});
+  MapImage image_ = build_map(random_yard(1, 40000), 1.0);
+  VoxelMap map_{image_.bytes()};
+  Localizer localizer_{map_, {}, start_* make_pose({0.2, -0.1, 0.05}, {.yaw_rad = 0.02})};
+};
+
+TEST_F(Drive, TracksFromTheFirstSweepAndLearnsTheVelocity) {
+  for (int sweep = 0; sweep < 20; ++sweep) {
+    const Fix fix = localize(sweep);
+    EXPECT_EQ(fix.state, State::tracking) << sweep;
+    EXPECT_LT(error_m(fix, sweep), 0.05) << sweep;
+    EXPECT_EQ(fix.at.stamp_utc_ns, kSweep_ns * (10 + sweep));
+  }
+  EXPECT_NEAR(localizer_.velocity()[0], 4.0, 0.4);
+  EXPECT_NEAR(localizer_.velocity()[5], 0.2, 0.1);
+}
+
+TEST_F(Drive, PredictsWhileItSeesNothingAndTracksAgain) {
+  for (int sweep = 0; sweep < 5; ++sweep) (void)localize(sweep);
+  for (int sweep = 5; sweep < 10; ++sweep) {
+    const Fix fix = see_nothing(sweep);
+    EXPECT_EQ(fix.state, State::predicted);
+    EXPECT_LT(error_m(fix, sweep), 0.3) << sweep;
+  }
+  const Fix fix = localize(10);
+  EXPECT_EQ(fix.state, State::tracking);
+  EXPECT_LT(error_m(fix, 10), 0.05);
+}
+
+TEST_F(Drive, IsLostAfterASecondOfPrediction) {
+  for (int sweep = 0; sweep < 5; ++sweep) (void)localize(sweep);
+  State last = State::tracking;
+  for (int sweep = 5; sweep < 20; ++sweep) last = see_nothing(sweep).state;
+  EXPECT_EQ(last, State::lost);
+  EXPECT_FALSE(is_usable(last));
+}
+
+TEST_F(Drive, WaitsWhereItWasAfterALeapOfTheClock) {
+  for (int sweep = 0; sweep < 5; ++sweep) (void)localize(sweep);
+  const Fix lost = localizer_.localize(scan(5), kSweep_ns * 1'000'000);
+  EXPECT_EQ(lost.state, State::lost);
+  EXPECT_LT(error_m(lost, 4), 0.05);
+  EXPECT_EQ(localizer_.localize(scan(6), kSweep_ns * 1'000'001).state, State::tracking);
+}
+
+TEST_F(Drive, StandsStillAndMayBecomeLostWhereTheClockIsSetBack) {
+  for (int sweep = 0; sweep < 5; ++sweep) {
+    (void)localizer_.localize(scan(sweep), kSweep_ns * (1000 + sweep));
+  }
+  const Fix first = see_nothing(0);
+  EXPECT_EQ(first.state, State::predicted);
+  EXPECT_LT(error_m(first, 4), 0.05);
+  State last = first.state;
+  for (int sweep = 1; sweep < 13; ++sweep) last = see_nothing(sweep).state;
+  EXPECT_EQ(last, State::lost);
+}
+
+TEST_F(Drive, IsNotLedAwayByASplinterOfASweep) {
+  for (int sweep = 0; sweep < 5; ++sweep) (void)localize(sweep);
+  std::vector<Eigen::Vector3f> splinter = scan(4);
+  splinter.resize(100);
+  for (Eigen::Vector3f& point : splinter) point.x() += 0.4F;
+  const Fix of_splinter = localizer_.localize(splinter, kSweep_ns * 14 + 887'000);
+  EXPECT_LT(error_m(of_splinter, 4), 0.15);
+  EXPECT_NEAR(localizer_.velocity()[0], 4.0, 0.4);
+  const Fix fix = localize(5);
+  EXPECT_EQ(fix.state, State::tracking);
+  EXPECT_LT(error_m(fix, 5), 0.05);
+}
+
+TEST_F(Drive, StaysInInitUntilAMatchIsBelieved) {
+  EXPECT_EQ(see_nothing(0).state, State::init);
+  EXPECT_EQ(see_nothing(1).state, State::init);
+  EXPECT_EQ(localizer_.localize(scan(0), kSweep_ns * 12).state, State::tracking);
+}
+
+TEST_F(Drive, DoesNotBelieveALeap) {
+  LocalizerSettings strict;
+  strict.innovation_limit_m = 0.5;
+  Localizer localizer(map_, strict, start_);
+  for (int sweep = 0; sweep < 5; ++sweep) (void)localizer.localize(scan(sweep), kSweep_ns * (10 + sweep));
+  // The same yard seen from 0.7 m aside: a good match, but no vehicle moves so.
+  std::vector<Eigen::Vector3f> moved = scan(5);
+  for (Eigen::Vector3f& point : moved) point.y() += 0.7F;
+  const Fix fix = localizer.localize(moved, kSweep_ns * 15);
+  EXPECT_NE(judge(fix.match, {}), Fit::none);
+  EXPECT_GT((fix.match.pose.translation() - truth(5).translation()).norm(), 0.5);
+  EXPECT_EQ(fix.state, State::predicted);
+  EXPECT_LT(error_m(fix, 5), 0.1);
+}
+
+TEST(Judge, NeedsConvergenceAndAScore) {
+  MatchResult match{
+      .nearest_voxel_likelihood = 2.0, .best_likelihood = 2.2, .points = 100, .points_matched = 90};
+  EXPECT_EQ(judge(match, {}), Fit::none);
+  match.converged = true;
+  EXPECT_EQ(judge(match, {}), Fit::good);
+  match.points_matched = 30;
+  EXPECT_EQ(judge(match, {}), Fit::weak);
+  match.nearest_voxel_likelihood = 0.4;
+  EXPECT_EQ(judge(match, {}), Fit::none);
+  match.points = 0;
+  match.nearest_voxel_likelihood = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(judge(match, {}), Fit::none);
+}
+
+}  // namespace
+}  // namespace landfix::ndt::test

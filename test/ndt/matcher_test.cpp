@@ -1,0 +1,244 @@
+#include "ndt/matcher.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "ndt/objective.hpp"
+#include "ndt/random_world.hpp"
+#include "ndt/reference_matcher.hpp"
+
+namespace landfix::ndt::test {
+namespace {
+
+constexpr double kResolution_m = 1.0;
+const ScoreConstants kConstants = magnusson_constants(0.55, kResolution_m);
+
+/// A scan of a yard, thinned so that the brute-force reference stays quick.
+struct Yard {
+  explicit Yard(std::uint64_t seed, const Eigen::Vector3d& origin_m = Eigen::Vector3d::Zero())
+      : image(build_map(random_yard(seed, 40000, 0.02, origin_m), kResolution_m)), map(image.bytes()) {
+    std::mt19937_64 random(seed + 1000);
+    truth = random_pose(random, 1.0, 0.5);
+    truth.translation() += origin_m;
+    // Other points of the same world: the same seed draws the same walls, more points draw other samples.
+    std::vector<Eigen::Vector3d> cloud = random_yard(seed, 41200, 0.02, origin_m);
+    cloud.erase(cloud.begin(), cloud.end() - 1200);
+    scan = seen_from(cloud, truth);
+  }
+  MapImage image;
+  VoxelMap map;
+  Pose truth;
+  std::vector<Eigen::Vector3f> scan;
+};
+
+TEST(ReferenceMatcher, GradientAndHessianAgreeWithCentralDifferences) {
+  std::mt19937_64 random(7);
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const Yard yard(seed);
+    for (const Covariance covariance : {Covariance::wide, Covariance::sharp}) {
+      const auto voxels = reference_voxels(yard.map, covariance);
+      const Pose pose = yard.truth * random_pose(random, 0.5, 0.05);
+      const auto pairs = find_pairs(voxels, yard.scan, pose, kResolution_m);
+      ASSERT_GT(pairs.size(), 500U);
+      const auto score_at = [&](const Twist& step) {
+        return evaluate_pairs(voxels, yard.scan, pairs, perturbed(pose, step), kConstants).score;
+      };
+      const ReferenceObjective exact = evaluate_pairs(voxels, yard.scan, pairs, pose, kConstants);
+      // Rotation moves points by up to 20 m times the angle: its steps are smaller by that.
+      Twist h = Twist::Constant(2e-5);
+      h.tail<3>() /= 20.0;
+      for (int i = 0; i < 6; ++i) {
+        const Twist step_i = h[i] * Twist::Unit(i);
+        const double slope = (score_at(step_i) - score_at(-step_i)) / (2.0 * h[i]);
+        EXPECT_NEAR(exact.gradient[i], slope, 1e-6 * exact.absolute_gradient[i]) << i;
+      }
+      const auto bend_over = [&](const Twist& step_i, const Twist& step_j) {
+        return (score_at(step_i + step_j) - score_at(step_i - step_j) - score_at(step_j - step_i) +
+                score_at(-step_i - step_j)) /
+               (4.0 * step_i.norm() * step_j.norm());
+      };
+      h.head<3>().setConstant(6e-5);
+      h.tail<3>().setConstant(1.2e-5);
+      for (int i = 0; i < 6; ++i) {
+        for (int j = 0; j < 6; ++j) {
+          const Twist step_i = h[i] * Twist::Unit(i);
+          const Twist step_j = h[j] * Twist::Unit(j);
+          // Richardson: the two step lengths cancel the error of second order.
+          const double bend = (4.0 * bend_over(step_i, step_j) - bend_over(2.0 * step_i, 2.0 * step_j)) / 3.0;
+          const double scale = std::sqrt(exact.absolute_hessian(i, i) * exact.absolute_hessian(j, j));
+          EXPECT_NEAR(exact.hessian(i, j), bend, 1e-6 * scale) << i << ' ' << j;
+        }
+      }
+    }
+  }
+}
+
+TEST(Objective, AgreesWithTheReference) {
+  std::mt19937_64 random(8);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Yard yard(seed);
+    for (const Covariance covariance : {Covariance::wide, Covariance::sharp}) {
+      const auto voxels = reference_voxels(yard.map, covariance);
+      const Pose pose = yard.truth * random_pose(random, 1.0, 0.1);
+      const auto pairs = find_pairs(voxels, yard.scan, pose, kResolution_m);
+      const ReferenceObjective exact = evaluate_pairs(voxels, yard.scan, pairs, pose, kConstants);
+      const Objective fast = evaluate(yard.map, yard.scan, pose, covariance, kConstants);
+      EXPECT_EQ(fast.pairs, pairs.size());
+      EXPECT_NEAR(fast.score, exact.score, 1e-5 * exact.absolute_score);
+      const Matrix6 hessian = fast.curvature - fast.definite;
+      const Matrix6 exact_hessian = exact.hessian - exact.second_order_rotation;
+      for (int i = 0; i < 6; ++i) {
+        EXPECT_NEAR(fast.gradient[i], exact.gradient[i], 1e-5 * exact.absolute_gradient[i]) << i;
+        for (int j = 0; j < 6; ++j) {
+          EXPECT_NEAR(hessian(i, j), exact_hessian(i, j), 1e-5 * exact.absolute_hessian(i, j))
+              << i << ' ' << j;
+        }
+      }
+    }
+  }
+}
+
+TEST(Objective, PairsEveryVoxelWhoseMeanIsWithinOneResolution) {
+  std::mt19937_64 random(9);
+  for (const double resolution_m : {0.5, 1.0, 2.0}) {
+    const auto cloud = random_yard(3, 60000, 0.3);
+    const MapImage image = build_map(cloud, resolution_m);
+    const VoxelMap map(image.bytes());
+    const auto voxels = reference_voxels(map, Covariance::wide);
+    ASSERT_EQ(voxels.size(), map.voxels().size());
+    std::vector<Eigen::Vector3d> few(cloud.begin(), cloud.begin() + 500);
+    const Pose pose = random_pose(random, 2.0, 3.0);
+    const auto scan = seen_from(few, pose);
+    EXPECT_EQ(evaluate(map, scan, pose, Covariance::wide, kConstants).pairs,
+              find_pairs(voxels, scan, pose, resolution_m).size());
+  }
+}
+
+TEST(Matcher, FindsTheOptimumOfTheReference) {
+  std::mt19937_64 random(10);
+  MatcherSettings precise;
+  precise.converged_m = 1e-6;
+  precise.converged_rad = 1e-7;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    const Yard yard(seed);
+    const Pose guess = yard.truth * random_pose(random, 0.3, 0.02);
+    const MatchResult fast = Matcher(precise).match(yard.map, yard.scan, guess);
+    ASSERT_TRUE(fast.converged);
+    ASSERT_TRUE(fast.sharpened);
+    const Pose wide =
+        match(reference_voxels(yard.map, Covariance::wide), yard.scan, guess, kResolution_m, kConstants);
+    const Pose exact =
+        match(reference_voxels(yard.map, Covariance::sharp), yard.scan, wide, kResolution_m, kConstants);
+    EXPECT_LT((fast.pose.translation() - exact.translation()).norm(), 2e-3) << seed;
+    EXPECT_LT(angle_between(fast.pose, exact), 2e-4) << seed;
+  }
+}
+
+TEST(Matcher, FindsTheTruthFromNearby) {
+  std::mt19937_64 random(11);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Yard yard(seed);
+    const MatchResult result =
+        Matcher({}).match(yard.map, yard.scan, yard.truth * random_pose(random, 0.4, 0.03));
+    EXPECT_TRUE(result.converged);
+    EXPECT_LT((result.pose.translation() - yard.truth.translation()).norm(), 0.03) << seed;
+    EXPECT_LT(angle_between(result.pose, yard.truth), 0.005) << seed;
+    EXPECT_GT(result.nearest_voxel_likelihood, 0.6 * kConstants.d1);
+  }
+}
+
+TEST(Matcher, NeverLowersTheScoreOfTheGuess) {
+  std::mt19937_64 random(12);
+  MatcherSettings settings;
+  settings.sharpen = false;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const Yard yard(seed);
+    for (int start = 0; start < 20; ++start) {
+      const Pose guess = yard.truth * random_pose(random, 5.0, 1.0);
+      const double before = evaluate(yard.map, yard.scan, guess, Covariance::wide, kConstants).score;
+      const MatchResult result = Matcher(settings).match(yard.map, yard.scan, guess);
+      EXPECT_GE(result.score, before);
+      EXPECT_LE(result.iterations, settings.max_iterations);
+      EXPECT_TRUE(result.pose.matrix().allFinite());
+    }
+  }
+}
+
+TEST(Matcher, DoesNotDependOnTheOrderOfThePoints) {
+  Yard yard(1);
+  std::mt19937_64 random(13);
+  const Pose guess = yard.truth * random_pose(random, 0.4, 0.03);
+  const Pose once = Matcher({}).match(yard.map, yard.scan, guess).pose;
+  std::shuffle(yard.scan.begin(), yard.scan.end(), random);
+  const Pose again = Matcher({}).match(yard.map, yard.scan, guess).pose;
+  EXPECT_LT((once.translation() - again.translation()).norm(), 1e-4);
+}
+
+TEST(Matcher, WorksAMillionMetresFromTheOrigin) {
+  std::mt19937_64 random(14);
+  const Pose offset = random_pose(random, 0.4, 0.03);
+  const Yard here(2);
+  const Pose near = Matcher({}).match(here.map, here.scan, here.truth * offset).pose;
+  for (const Eigen::Vector3d& origin_m :
+       {Eigen::Vector3d(1e6, -1e6, 1000.0), Eigen::Vector3d(-3.0, 999999.0, -7.0)}) {
+    const Yard there(2, origin_m);
+    const Pose far = Matcher({}).match(there.map, there.scan, there.truth * offset).pose;
+    EXPECT_LT((far.translation() - origin_m - near.translation()).norm(), 1e-4);
+    EXPECT_LT(angle_between(far, near), 1e-5);
+  }
+}
+
+TEST(Matcher, ReturnsTheGuessWhereNothingOverlaps) {
+  const Yard yard(4);
+  const Pose far = make_pose({5000.0, 0.0, 0.0}, {.yaw_rad = 0.3});
+  const MatchResult result = Matcher({}).match(yard.map, yard.scan, far);
+  EXPECT_FALSE(result.converged);
+  EXPECT_EQ(result.points_matched, 0U);
+  EXPECT_EQ((result.pose.matrix() - far.matrix()).norm(), 0.0);
+
+  EXPECT_FALSE(Matcher({}).match(yard.map, {}, yard.truth).converged);
+}
+
+TEST(Matcher, LeavesOutPointsThatAreNotFinite) {
+  Yard yard(5);
+  const Pose clean = Matcher({}).match(yard.map, yard.scan, yard.truth).pose;
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  yard.scan.emplace_back(kNan, 0.0F, 0.0F);
+  yard.scan.emplace_back(kInfinity, 0.0F, 0.0F);
+  yard.scan.emplace_back(1e30F, 0.0F, 0.0F);
+  const MatchResult result = Matcher({}).match(yard.map, yard.scan, yard.truth);
+  EXPECT_LT((result.pose.matrix() - clean.matrix()).norm(), 1e-9);
+}
+
+TEST(Matcher, KeepsTheWideAnswerForTooFewPoints) {
+  Yard yard(6);
+  yard.scan.resize(150);
+  EXPECT_FALSE(Matcher({}).match(yard.map, yard.scan, yard.truth).sharpened);
+}
+
+TEST(Matcher, DoesNotMoveAlongADirectionThatNothingHolds) {
+  // One horizontal plane: x, y and yaw are free, z, roll and pitch are held.
+  std::mt19937_64 random(15);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::normal_distribution<double> noise(0.0, 0.02);
+  std::vector<Eigen::Vector3d> plane;
+  for (int i = 0; i < 400000; ++i)
+    plane.emplace_back(30.0 * unit(random), 30.0 * unit(random), noise(random) + 0.5);
+  const MapImage image = build_map(plane, kResolution_m);
+  const VoxelMap map(image.bytes());
+  plane.resize(1000);
+  for (Eigen::Vector3d& p : plane) p.head<2>() *= 0.3;
+  const Pose truth = make_pose({0.0, 0.0, 2.0}, {});
+  const auto scan = seen_from(plane, truth);
+  const MatchResult result = Matcher({}).match(map, scan, make_pose({0.0, 0.0, 2.2}, {.pitch_rad = 0.02}));
+  EXPECT_NEAR(result.pose.translation().z(), 2.0, 0.02);
+  EXPECT_LT(result.pose.translation().head<2>().norm(), 0.5);
+  EXPECT_GT(result.covariance(0, 0), 20.0 * result.covariance(2, 2));
+}
+
+}  // namespace
+}  // namespace landfix::ndt::test

@@ -1,0 +1,64 @@
+#include "ndt/motion.hpp"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace landfix::ndt {
+namespace {
+
+TEST(Motion, VelocityLeadsFromOnePoseToTheOther) {
+  const StampedPose from{1'000'000'000, make_pose({1.0, 2.0, 3.0}, {.roll_rad = 0.1, .yaw_rad = 2.0})};
+  const StampedPose to{1'100'000'000, make_pose({1.7, 2.4, 3.1}, {.pitch_rad = 0.05, .yaw_rad = 2.1})};
+  const Velocity velocity = velocity_between(from, to);
+  EXPECT_LT((predict(from, velocity, to.stamp_utc_ns).matrix() - to.pose.matrix()).norm(), 1e-9);
+  // Half the time leads half the way along the same screw.
+  const Pose half = predict(from, velocity, 1'050'000'000);
+  EXPECT_LT((half * (from.pose.inverse() * half).matrix() - to.pose.matrix()).norm(), 1e-9);
+}
+
+TEST(Motion, NoTimeIsNoVelocity) {
+  const StampedPose here{5, Pose::Identity()};
+  const StampedPose there{5, make_pose({1.0, 0.0, 0.0}, {})};
+  EXPECT_EQ(velocity_between(here, there), Velocity::Zero());
+  EXPECT_EQ(velocity_between({6, Pose::Identity()}, there), Velocity::Zero());
+}
+
+TEST(Deskew, BringsFixedPointsToWhereTheyAreSeenAtTheEnd) {
+  // GIVEN a vehicle that drives fast through a tight curve, a sensor on its roof, and points fixed in the
+  // world
+  Velocity velocity;
+  velocity << 14.0, 0.3, -0.2, 0.05, -0.1, 0.9;
+  const Pose sensor_pose = make_pose({1.2, 0.1, 1.9}, {.roll_rad = 0.02, .pitch_rad = -0.1, .yaw_rad = 0.5});
+  constexpr float kDuration_s = 0.1F;
+  const Pose at_end = make_pose({100.0, -50.0, 2.0}, {.yaw_rad = 1.0});
+  const Deskew deskew(velocity, kDuration_s, sensor_pose);
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> place(-60.0, 60.0);
+  std::uniform_real_distribution<float> time(0.0F, kDuration_s);
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Vector3d world =
+        at_end.translation() + Eigen::Vector3d(place(random), place(random), 0.1 * place(random));
+    // WHEN each is seen from where the sensor was at its firing time
+    const float time_s = time(random);
+    const Pose sensor_then =
+        at_end * pose_exp(velocity * static_cast<double>(time_s - kDuration_s)) * sensor_pose;
+    const Eigen::Vector3f seen = (sensor_then.inverse() * world).cast<float>();
+    // THEN deskewing gives its place relative to the vehicle at the end of the sweep
+    const Eigen::Vector3f expected = (at_end.inverse() * world).cast<float>();
+    const Eigen::Vector3f point = deskew({.x = seen.x(), .y = seen.y(), .z = seen.z(), .time_s = time_s});
+    EXPECT_LT((point - expected).norm(), 2e-4F);
+  }
+}
+
+TEST(Deskew, OnlyPlacesTheSensorWhereNothingMovesOrNothingIsTimed) {
+  const Pose sensor_pose = make_pose({1.0, 2.0, 3.0}, {.yaw_rad = 1.5707963267948966});
+  for (const float duration_s : {0.0F, 0.1F}) {
+    const Deskew deskew(Velocity::Zero(), duration_s, sensor_pose);
+    const Eigen::Vector3f point = deskew({.x = 1.0F, .y = 0.0F, .z = 0.0F, .time_s = 0.05F});
+    EXPECT_LT((point - Eigen::Vector3f(1.0F, 3.0F, 3.0F)).norm(), 1e-5F);
+  }
+}
+
+}  // namespace
+}  // namespace landfix::ndt

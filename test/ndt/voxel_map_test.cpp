@@ -1,0 +1,171 @@
+#include "ndt/voxel_map.hpp"
+
+#include <bit>
+#include <limits>
+#include <random>
+
+#include <Eigen/Eigenvalues>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "ndt/crc32c.hpp"
+#include "ndt/map_file.hpp"
+#include "ndt/random_world.hpp"
+#include "ndt/voxel_map_builder.hpp"
+
+namespace landfix::ndt::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+[[nodiscard]] std::string error_of(std::span<const std::byte> bytes) {
+  try {
+    (void)load_map(bytes, "street.ndt");
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+[[nodiscard]] Eigen::Matrix3d matrix(const Symmetric3f& s) {
+  Eigen::Matrix3f m;
+  m << s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5];
+  return m.cast<double>();
+}
+
+TEST(Lattice, BlockKeysKeepTheirCorner) {
+  for (const std::int32_t i : {-kMaxCell, -5, -4, -1, 0, 3, 4, kMaxCell - 1}) {
+    for (const std::int32_t j : {-9, 0, 8}) {
+      const Cell cell{i, j, -i / 2};
+      const Cell corner = block_corner(block_key(cell));
+      EXPECT_EQ(corner, (Cell{cell.i & ~3, cell.j & ~3, cell.k & ~3})) << i << ' ' << j;
+    }
+  }
+}
+
+TEST(VoxelMapBuilder, AVoxelHasTheMomentsOfItsPoints) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  // One voxel's worth of points, far from the origin, with a shape of its own.
+  const Eigen::Vector3d place_m(123456.5, -98765.5, 10.5);
+  Eigen::Matrix3d shape;
+  shape << 0.1, 0.02, 0.0, 0.0, 0.07, 0.03, 0.0, 0.0, 0.05;
+  std::vector<Eigen::Vector3d> points;
+  while (points.size() < 200) {
+    const Eigen::Vector3d p = shape * Eigen::Vector3d(normal(random), normal(random), normal(random));
+    if (p.cwiseAbs().maxCoeff() < 0.45) points.emplace_back(place_m + p);
+  }
+  const MapImage image = build_map(points, 1.0);
+  const VoxelMap map(image.bytes());
+  ASSERT_EQ(map.voxels().size(), 1U);
+  const Voxel& voxel = map.voxels().front();
+
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto& p : points) mean += p / 200.0;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const auto& p : points) covariance += (p - mean) * (p - mean).transpose() / 199.0;
+  EXPECT_EQ(voxel.count, 200U);
+  const Eigen::Vector3d corner(123456.0, -98766.0, 10.0);
+  EXPECT_LT((corner + Eigen::Map<const Eigen::Vector3f>(voxel.mean_m.data()).cast<double>() - mean).norm(),
+            1e-6);
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+  EXPECT_LT((matrix(voxel.sharp_1pm2) * covariance - identity).norm(), 1e-4);
+  EXPECT_LT((matrix(voxel.wide_1pm2) * (covariance + identity / 199.0) - identity).norm(), 1e-4);
+}
+
+TEST(VoxelMapBuilder, AFlatVoxelIsATenthAsThickAsItIsLong) {
+  std::vector<Eigen::Vector3d> plane;
+  for (int i = 0; i < 10; ++i) {
+    for (int j = 0; j < 10; ++j) plane.emplace_back(0.05 + 0.1 * i, 0.05 + 0.1 * j, 0.5);
+  }
+  const MapImage image = build_map(plane, 1.0);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(
+      matrix(VoxelMap(image.bytes()).voxels()[0].sharp_1pm2));
+  EXPECT_NEAR(eigen.eigenvalues()[2] / eigen.eigenvalues()[0], 100.0, 0.01);
+}
+
+TEST(VoxelMapBuilder, LeavesOutCellsWithTooFewPointsOrNoExtent) {
+  VoxelMapBuilder builder(1.0, 10);
+  for (std::uint32_t i = 0; i + 1 < VoxelMapBuilder::kMinPoints; ++i) builder.add({0.1 * i, 0.5, 0.5});
+  for (int i = 0; i < 50; ++i) builder.add({7.5, 7.5, 7.5});
+  EXPECT_THROW((void)builder.build(), std::runtime_error);
+  for (int i = 0; i < 6; ++i) builder.add({3.1 + 0.1 * i, 0.5, 0.5});
+  const MapImage image = builder.build();
+  EXPECT_EQ(VoxelMap(image.bytes()).voxels().size(), 1U);
+}
+
+TEST(VoxelMapBuilder, AFullMapSaysSo) {
+  VoxelMapBuilder builder(1.0, 2);
+  builder.add({0.5, 0.5, 0.5});
+  builder.add({1.5, 0.5, 0.5});
+  builder.add({0.6, 0.5, 0.5});
+  try {
+    builder.add({2.5, 0.5, 0.5});
+    FAIL() << "a third cell was taken";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the map is full"));
+  }
+}
+
+TEST(VoxelMapBuilder, SkipsPointsThatHaveNoPlaceInTheLattice) {
+  VoxelMapBuilder builder(1.0, 2);
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {kNan, kInfinity, -kInfinity, 1e9, -1e300}) builder.add({0.0, bad, 0.0});
+  EXPECT_EQ(builder.skipped_points(), 5U);
+  EXPECT_EQ(builder.points(), 0U);
+}
+
+TEST(VoxelMapBuilder, RefusesSizesThatAreNone) {
+  EXPECT_THROW(VoxelMapBuilder(0.0, 10), std::runtime_error);
+  EXPECT_THROW(VoxelMapBuilder(-1.0, 10), std::runtime_error);
+  EXPECT_THROW(VoxelMapBuilder(std::numeric_limits<double>::quiet_NaN(), 10), std::runtime_error);
+  EXPECT_THROW(VoxelMapBuilder(1.0, 0), std::runtime_error);
+}
+
+TEST(MapFile, IsReadBackToTheByte) {
+  const MapImage image = build_map(random_yard(1, 20000), 1.0);
+  const MapImage loaded = load_map(image.bytes(), "street.ndt");
+  EXPECT_TRUE(std::ranges::equal(image.bytes(), loaded.bytes()));
+}
+
+TEST(Crc32c, HasItsCheckValueHoweverTheBytesAreSplit) {
+  const std::string digits = "123456789";
+  for (std::size_t split = 0; split <= digits.size(); ++split) {
+    const auto bytes = std::as_bytes(std::span(digits));
+    const std::uint32_t first = crc32c_update(kCrc32cStart, bytes.first(split));
+    EXPECT_EQ(~crc32c_update(first, bytes.subspan(split)), 0xE3069283U);
+  }
+}
+
+TEST(MapFile, RefusesEveryTruncationAndEveryFlippedByte) {
+  const MapImage image = build_map(random_yard(1, 3000), 4.0);
+  std::vector<std::byte> bytes(image.bytes().begin(), image.bytes().end());
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_NE(error_of(std::span(bytes).first(size)), "no error") << size;
+  }
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    bytes[i] ^= std::byte{0x10};
+    EXPECT_NE(error_of(bytes), "no error") << i;
+    bytes[i] ^= std::byte{0x10};
+  }
+  EXPECT_EQ(error_of(bytes), "no error");
+}
+
+TEST(MapFile, SaysWhatIsWrong) {
+  const MapImage image = build_map(random_yard(1, 3000), 4.0);
+  std::vector<std::byte> bytes(image.bytes().begin(), image.bytes().end());
+  EXPECT_THAT(
+      error_of(std::as_bytes(std::span("# .PCD v0.7 - Point Cloud Data file format, and so on for a while"))),
+      HasSubstr("street.ndt: not a landfix map"));
+  EXPECT_THAT(error_of(std::span(bytes).first(bytes.size() - 64)), HasSubstr("truncated"));
+  std::vector<std::byte> newer = bytes;
+  newer[offsetof(MapHeader, version)] = std::byte{9};
+  EXPECT_THAT(error_of(newer), HasSubstr("map version 9"));
+  std::vector<std::byte> damaged = bytes;
+  damaged.back() ^= std::byte{1};
+  EXPECT_THAT(error_of(damaged), HasSubstr("checksum"));
+}
+
+}  // namespace
+}  // namespace landfix::ndt::test
