@@ -1,0 +1,73 @@
+// The configuration file, checked: who holds a Configuration need not doubt its values. config/landfix.toml
+// explains every key.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "ndt/pose.hpp"
+
+namespace landfix::platform {
+
+struct SensorSettings {
+  std::string model;                  ///< of the catalogue; required
+  std::filesystem::path calibration;  ///< empty: the model's own angles
+  std::string address;                ///< IPv4 of the sensor; empty: whoever sends
+  std::uint16_t port = 0;             ///< UDP destination of its packets; 0: the model's
+  double cut_deg = 0.0;               ///< azimuth between sweeps, clockwise from the front, [0, 360)
+  double min_range_m = 3.0;
+  double max_range_m = 200.0;
+};
+
+struct VehicleSettings {
+  ndt::Pose sensor_pose = ndt::Pose::Identity();  ///< vehicle <- sensor
+};
+
+struct MapSettings {
+  std::filesystem::path file;  ///< empty: must come from elsewhere
+};
+
+struct InitialPoseSettings {
+  std::optional<ndt::Pose> pose;  ///< map <- vehicle
+};
+
+struct FilterSettings {
+  double leaf_m = 2.0;  ///< edge of the voxels that thin out the scan
+};
+
+struct MatcherSettings {
+  double resolution_m = 1.0;  ///< the map's
+  int max_iterations = 50;
+};
+
+struct CanSettings {
+  std::string interface = "can0";
+  std::uint32_t base_id = 0x3A0;  ///< of the first frame, 11 bits
+  double rate_hz = 10.0;          ///< of the poses on a live bus; a replay logs one for each sweep
+  bool fd = false;                ///< CAN FD is not implemented: true is refused
+};
+
+struct MetricsSettings {
+  std::string address;  ///< "IPV4:PORT" or "unix:/PATH"; empty: no metrics
+};
+
+struct Configuration {
+  SensorSettings sensor{};
+  VehicleSettings vehicle{};
+  MapSettings map{};
+  InitialPoseSettings initial_pose{};
+  FilterSettings filter{};
+  MatcherSettings matcher{};
+  CanSettings can{};
+  MetricsSettings metrics{};
+};
+
+/// Paths within the file are relative to its folder. Throws std::runtime_error: path:line:column, what is
+/// wrong, and what is allowed. Unknown keys are errors too.
+[[nodiscard]] Configuration read_configuration(const std::filesystem::path& path);
+[[nodiscard]] Configuration parse_configuration(std::string_view text, const std::filesystem::path& path);
+
+}  // namespace landfix::platform

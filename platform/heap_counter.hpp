@@ -1,0 +1,37 @@
+// Counts the calls of the heap that a thread makes while it asks for it: the proof that none are made after
+// start-up. It counts in executables that link landfix_heap_counter, which puts itself before the C library's
+// malloc, free and the rest (C++'s new and delete call these).
+#pragma once
+
+#include <cstdint>
+
+namespace landfix::platform {
+
+/// All of it concerns the calling thread alone.
+class HeapCounter {
+ public:
+  /// False where the calls cannot be counted: not linked, not glibc, or a sanitizer owns the heap.
+  [[nodiscard]] static bool available() noexcept { return available_; }
+
+  static void arm() noexcept;
+  static void disarm() noexcept;
+
+  /// While armed, since the thread began.
+  [[nodiscard]] static std::uint64_t calls() noexcept;
+
+  /// For landfix_heap_counter.
+  static void count() noexcept {
+    if (thread_.armed) ++thread_.calls;
+  }
+  static void make_available() noexcept { available_ = true; }
+
+ private:
+  struct Thread {
+    bool armed = false;
+    std::uint64_t calls = 0;
+  };
+  static constinit thread_local Thread thread_;
+  static constinit bool available_;
+};
+
+}  // namespace landfix::platform

@@ -1,0 +1,98 @@
+// The main job, assembled: packets in, poses out. decode -> deskew and filter -> match -> publish.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "drivers/any_decoder.hpp"
+#include "drivers/decoder.hpp"
+#include "drivers/sweep.hpp"
+#include "ndt/localizer.hpp"
+#include "ndt/pose.hpp"
+#include "ndt/voxel_grid.hpp"
+#include "ndt/voxel_map.hpp"
+#include "platform/can_frame.hpp"
+#include "platform/latency_histogram.hpp"
+#include "platform/packet_source.hpp"
+#include "platform/pose_frames.hpp"
+
+namespace landfix::platform {
+
+enum class Stage : std::uint8_t { decode, filter, match, publish };
+inline constexpr std::size_t kStageCount = 4;
+[[nodiscard]] std::string_view to_string(Stage stage) noexcept;
+
+struct PipelineSettings {
+  std::uint16_t port = 0;                         ///< of the sensor's data packets; others are counted
+  std::uint32_t sensor_address = 0;               ///< IPv4, host byte order; 0: whoever sends
+  std::size_t points_per_sweep = 0;               ///< room for a sweep
+  ndt::Pose sensor_pose = ndt::Pose::Identity();  ///< vehicle <- sensor
+  double leaf_m = 2.0;
+  std::size_t filter_capacity = 1 << 16;  ///< points after the filter
+  bool deskew = true;
+  ndt::LocalizerSettings localizer{};
+  ndt::Pose initial_pose = ndt::Pose::Identity();  ///< map <- vehicle
+  std::uint32_t can_base_id = 0x3A0;
+};
+
+/// What came of one sweep.
+struct SweepResult {
+  ndt::Fix fix;
+  std::size_t points_filtered = 0;  ///< that were matched
+  bool complete = false;
+  drivers::TimeSource time_source = drivers::TimeSource::receive;
+};
+
+struct PipelineCounters {
+  std::uint64_t packets = 0;        ///< decoded or rejected
+  std::uint64_t other_ports = 0;    ///< not decoded
+  std::uint64_t other_senders = 0;  ///< to the sensor's port, not from its address: not decoded
+  std::array<std::uint64_t, drivers::kDecodeStatusCount> by_status{};
+  std::uint64_t points_overflowed = 0;  ///< did not fit the sweep
+  std::uint64_t points_unfiltered = 0;  ///< did not fit the filter, or were not finite
+  std::uint64_t frames_dropped = 0;     ///< that the bus did not take
+  std::uint64_t frames_saturated = 0;   ///< poses with a value beyond its signal's range
+
+  [[nodiscard]] std::uint64_t rejected() const noexcept;
+};
+
+/// Allocates in its constructor and never after.
+class Pipeline {
+ public:
+  /// The memory that `map` views, and `bus`, must outlive it; without a bus nothing is published.
+  Pipeline(const PipelineSettings& settings, const drivers::AnyDecoder& decoder, const ndt::VoxelMap& map,
+           FrameSink* bus);
+
+  /// Takes one packet; what came of the sweep that it completed, if it did.
+  [[nodiscard]] std::optional<SweepResult> process(const UdpPacket& packet) noexcept;
+  /// At the end of the packets: what came of the last sweep, if any is begun.
+  [[nodiscard]] std::optional<SweepResult> finish() noexcept;
+
+  [[nodiscard]] const PipelineCounters& counters() const noexcept { return counters_; }
+  [[nodiscard]] const LatencyHistogram& durations(Stage stage) const noexcept {
+    return durations_[static_cast<std::size_t>(stage)];
+  }
+
+ private:
+  [[nodiscard]] SweepResult localize(const drivers::Sweep& sweep) noexcept;
+  void publish(const ndt::Fix& fix) noexcept;
+  void record(Stage stage, std::int64_t began_ns) noexcept;
+
+  PipelineSettings settings_;
+  drivers::AnyDecoder decoder_;
+  std::vector<drivers::Point> points_;
+  drivers::SweepPair sweeps_;
+  ndt::VoxelGrid grid_;
+  ndt::Localizer localizer_;
+  PoseFrameEncoder encoder_;
+  FrameSink* bus_;
+  PipelineCounters counters_;
+  std::int64_t decode_ns_ = 0;  ///< spent on the packets of the current sweep
+  std::array<LatencyHistogram, kStageCount> durations_{};
+};
+
+}  // namespace landfix::platform

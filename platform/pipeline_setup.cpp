@@ -1,0 +1,17 @@
+// Set-up of the pipeline: the one place where it allocates.
+#include "platform/pipeline.hpp"
+
+namespace landfix::platform {
+
+Pipeline::Pipeline(const PipelineSettings& settings, const drivers::AnyDecoder& decoder,
+                   const ndt::VoxelMap& map, FrameSink* bus)
+    : settings_(settings),
+      decoder_(decoder),
+      points_(2 * settings.points_per_sweep),
+      sweeps_(points_),
+      grid_(settings.leaf_m, settings.filter_capacity),
+      localizer_(map, settings.localizer, settings.initial_pose),
+      encoder_(settings.can_base_id),
+      bus_(bus) {}
+
+}  // namespace landfix::platform

@@ -1,0 +1,148 @@
+#include "platform/toml_section.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace landfix::platform {
+namespace {
+
+constexpr double kMaxCoordinate_m = 1e7;
+constexpr double kMaxAngle_deg = 360.0;
+
+/// On one line, and not all of a long one.
+std::string text_of(const toml::node& node) {
+  constexpr std::size_t kMaxLength = 60;
+  std::ostringstream stream;
+  node.visit([&stream](const auto& value) { stream << value; });
+  std::string text = stream.str();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text.size() <= kMaxLength ? text : text.substr(0, kMaxLength) + "...";
+}
+
+std::optional<double> number_of(const toml::node& node) {
+  return node.is_number() ? node.value<double>() : std::nullopt;
+}
+
+}  // namespace
+
+std::string place(const std::filesystem::path& file, const toml::source_region& region) {
+  return fmt::format("{}:{}:{}", file.string(), region.begin.line, region.begin.column);
+}
+
+TomlSection::TomlSection(const std::filesystem::path& file, const toml::table& root, std::string_view name)
+    : file_(file), name_(name) {
+  const toml::node* const node = root.get(name);
+  if (node == nullptr) return;
+  table_ = node->as_table();
+  if (table_ == nullptr) {
+    throw std::runtime_error(
+        fmt::format("{}: {} is a section; expected [{}]", place(file_, node->source()), name_, name_));
+  }
+}
+
+const toml::node* TomlSection::find(std::string_view key) {
+  known_keys_.push_back(key);
+  return table_ == nullptr ? nullptr : table_->get(key);
+}
+
+void TomlSection::fail(std::string_view key, const toml::node& node, std::string_view expected) const {
+  throw std::runtime_error(fmt::format("{}: {}.{} = {}; expected {}", place(file_, node.source()), name_, key,
+                                       text_of(node), expected));
+}
+
+void TomlSection::fail(std::string_view key, std::string_view expected) const {
+  const toml::node* const node = table_ == nullptr ? nullptr : table_->get(key);
+  if (node != nullptr) fail(key, *node, expected);
+  throw std::runtime_error(fmt::format("{}: {}.{}: expected {}", file_.string(), name_, key, expected));
+}
+
+void TomlSection::require(std::string_view key) const {
+  if (table_ != nullptr && table_->contains(key)) return;
+  throw std::runtime_error(
+      fmt::format("{}: {} is missing; add it to the section [{}]", file_.string(), key, name_));
+}
+
+void TomlSection::finish() const {
+  if (table_ == nullptr) return;
+  for (const auto& [key, node] : *table_) {
+    const bool known = std::find(known_keys_.begin(), known_keys_.end(), key.str()) != known_keys_.end();
+    if (!known) {
+      throw std::runtime_error(fmt::format("{}: unknown key {}; [{}] has {}", place(file_, key.source()),
+                                           key.str(), name_, fmt::join(known_keys_, ", ")));
+    }
+  }
+}
+
+void TomlSection::read(std::string_view key, bool& value) {
+  const toml::node* const node = find(key);
+  if (node == nullptr) return;
+  if (!node->is_boolean()) fail(key, *node, "true or false");
+  value = node->value_or(value);
+}
+
+void TomlSection::read(std::string_view key, double& value, Range<double> range) {
+  const toml::node* const node = find(key);
+  if (node == nullptr) return;
+  const std::optional<double> number = number_of(*node);
+  // Not a NaN either.
+  if (!number || !(*number >= range.low && *number <= range.high)) {
+    fail(key, *node, fmt::format("a number from {} to {}", range.low, range.high));
+  }
+  value = *number;
+}
+
+std::int64_t TomlSection::integer(std::string_view key, std::int64_t value, Range<std::int64_t> range) {
+  const toml::node* const node = find(key);
+  if (node == nullptr) return value;
+  const auto number = node->value_exact<std::int64_t>();
+  if (!number || *number < range.low || *number > range.high) {
+    fail(key, *node, fmt::format("a whole number from {} to {}", range.low, range.high));
+  }
+  return *number;
+}
+
+void TomlSection::read(std::string_view key, std::filesystem::path& value) {
+  const toml::node* const node = find(key);
+  if (node == nullptr) return;
+  const auto text = node->value_exact<std::string>();
+  if (!text || text->find('\0') != text->npos) fail(key, *node, "the name of a file");
+  value = text->empty() ? std::filesystem::path() : file_.parent_path() / *text;
+}
+
+void TomlSection::read(std::string_view key, ndt::Pose& value) {
+  std::optional<ndt::Pose> pose;
+  read(key, pose);
+  if (pose) value = *pose;
+}
+
+void TomlSection::read(std::string_view key, std::optional<ndt::Pose>& value) {
+  const toml::node* const node = find(key);
+  if (node == nullptr) return;
+  const toml::array* const array = node->as_array();
+  std::array<double, 6> numbers{};
+  bool good = array != nullptr && array->size() == numbers.size();
+  for (std::size_t i = 0; good && i < numbers.size(); ++i) {
+    const toml::node& element = *array->get(i);
+    const std::optional<double> number = number_of(element);
+    good = number && std::abs(*number) <= (i < 3 ? kMaxCoordinate_m : kMaxAngle_deg);
+    numbers[i] = number.value_or(0.0);
+  }
+  if (!good) {
+    fail(key, *node,
+         fmt::format(
+             "[x, y, z, roll_deg, pitch_deg, yaw_deg]: six numbers, metres up to {} and degrees up to {}",
+             kMaxCoordinate_m, kMaxAngle_deg));
+  }
+  value =
+      ndt::make_pose({numbers[0], numbers[1], numbers[2]}, {.roll_rad = numbers[3] * ndt::kRadians_per_deg,
+                                                            .pitch_rad = numbers[4] * ndt::kRadians_per_deg,
+                                                            .yaw_rad = numbers[5] * ndt::kRadians_per_deg});
+}
+
+}  // namespace landfix::platform

@@ -1,0 +1,194 @@
+#include "platform/configuration.hpp"
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "platform/atomic_file.hpp"
+#include "support/test_data.hpp"
+
+namespace landfix::platform {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::filesystem::path kExample = std::filesystem::path(LANDFIX_CONFIG_FOLDER) / "landfix.toml";
+const std::string kSensor = "[sensor]\nmodel = \"vlp16\"\n";
+
+Configuration parse(const std::string& text) {
+  return parse_configuration(text, "/etc/landfix/landfix.toml");
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    (void)parse_configuration(text, "a.toml");
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// The error of one line below a section.
+std::string error_of(const std::string& section, const std::string& line) {
+  return section == "sensor" ? error_of(kSensor + line)
+                             : error_of(fmt::format("{}[{}]\n{}", kSensor, section, line));
+}
+
+TEST(Configuration, TheExampleSaysTheDefaults) {
+  const Configuration example = read_configuration(kExample);
+  const Configuration defaults;
+  EXPECT_EQ(example.sensor.model, "vlp16");  // these two have none
+  EXPECT_EQ(example.map.file, std::filesystem::path(LANDFIX_CONFIG_FOLDER) / "map.ndt");
+
+  EXPECT_EQ(example.sensor.calibration, defaults.sensor.calibration);
+  EXPECT_EQ(example.sensor.address, defaults.sensor.address);
+  EXPECT_EQ(example.sensor.port, defaults.sensor.port);
+  EXPECT_EQ(example.sensor.cut_deg, defaults.sensor.cut_deg);
+  EXPECT_EQ(example.sensor.min_range_m, defaults.sensor.min_range_m);
+  EXPECT_EQ(example.sensor.max_range_m, defaults.sensor.max_range_m);
+  EXPECT_EQ(example.vehicle.sensor_pose.matrix(), defaults.vehicle.sensor_pose.matrix());
+  EXPECT_FALSE(example.initial_pose.pose);
+  EXPECT_EQ(example.filter.leaf_m, defaults.filter.leaf_m);
+  EXPECT_EQ(example.matcher.resolution_m, defaults.matcher.resolution_m);
+  EXPECT_EQ(example.matcher.max_iterations, defaults.matcher.max_iterations);
+  EXPECT_EQ(example.can.interface, defaults.can.interface);
+  EXPECT_EQ(example.can.base_id, defaults.can.base_id);
+  EXPECT_EQ(example.can.rate_hz, defaults.can.rate_hz);
+  EXPECT_EQ(example.can.fd, defaults.can.fd);
+  EXPECT_EQ(example.metrics.address, defaults.metrics.address);
+}
+
+TEST(Configuration, TheExampleMentionsEveryKey) {
+  const auto bytes = read_file(kExample);
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  for (const char* section :
+       {"sensor", "vehicle", "map", "initial_pose", "filter", "matcher", "can", "metrics"}) {
+    // The message for an unknown key lists those that are known.
+    const std::string error = error_of(section, "nonsense = 1");
+    const std::string has = fmt::format("[{}] has ", section);
+    ASSERT_THAT(error, HasSubstr(has));
+    std::istringstream keys(error.substr(error.find(has) + has.size()));
+    for (std::string key; std::getline(keys >> std::ws, key, ',');) {
+      EXPECT_THAT(text, HasSubstr(fmt::format("\n{}{} = ", key == "pose" ? "# " : "", key))) << section;
+    }
+  }
+}
+
+TEST(Configuration, EveryKeyIsRead) {
+  const Configuration read = parse(R"(
+[sensor]
+model = "pandar64"
+calibration = "unit.csv"
+address = "192.168.1.201"
+port = 2400
+cut_deg = 180
+min_range_m = 1.5
+max_range_m = 100
+[vehicle]
+sensor_pose = [1.5, 0, 1.8, 0.0, 2.0, 90.0]
+[map]
+file = "/maps/town.ndt"
+[initial_pose]
+pose = [10, 20, 0, 0, 0, -90]
+[filter]
+leaf_m = 1.0
+[matcher]
+resolution_m = 2.0
+max_iterations = 30
+[can]
+interface = "vcan1"
+base_id = 0x500
+rate_hz = 50
+[metrics]
+address = "unix:/run/landfix/metrics"
+)");
+  EXPECT_EQ(read.sensor.model, "pandar64");
+  EXPECT_EQ(read.sensor.calibration, "/etc/landfix/unit.csv");
+  EXPECT_EQ(read.sensor.address, "192.168.1.201");
+  EXPECT_EQ(read.sensor.port, 2400);
+  EXPECT_EQ(read.sensor.cut_deg, 180.0);
+  EXPECT_EQ(read.sensor.min_range_m, 1.5);
+  EXPECT_EQ(read.sensor.max_range_m, 100.0);
+  EXPECT_EQ(read.vehicle.sensor_pose.translation(), Eigen::Vector3d(1.5, 0, 1.8));
+  const ndt::RollPitchYaw angles = ndt::to_roll_pitch_yaw(read.vehicle.sensor_pose.linear());
+  EXPECT_NEAR(angles.pitch_rad, 2.0 * M_PI / 180.0, 1e-12);
+  EXPECT_NEAR(angles.yaw_rad, M_PI / 2, 1e-12);
+  EXPECT_EQ(read.map.file, "/maps/town.ndt");
+  EXPECT_EQ(read.initial_pose.pose->translation(), Eigen::Vector3d(10, 20, 0));
+  EXPECT_EQ(read.filter.leaf_m, 1.0);
+  EXPECT_EQ(read.matcher.resolution_m, 2.0);
+  EXPECT_EQ(read.matcher.max_iterations, 30);
+  EXPECT_EQ(read.can.interface, "vcan1");
+  EXPECT_EQ(read.can.base_id, 0x500U);
+  EXPECT_EQ(read.can.rate_hz, 50.0);
+  EXPECT_EQ(read.metrics.address, "unix:/run/landfix/metrics");
+}
+
+TEST(Configuration, ErrorsSayWhereAndWhatIsAllowed) {
+  EXPECT_EQ(error_of("filter", "leaf_m = -1"),
+            "a.toml:4:10: filter.leaf_m = -1; expected a number from 0.05 to 20");
+  EXPECT_EQ(error_of("filter", "leaf = 1"), "a.toml:4:1: unknown key leaf; [filter] has leaf_m");
+  EXPECT_THAT(error_of(kSensor + "[filtre]"),
+              StartsWith("a.toml:3:2: unknown section or key filtre; there are"));
+  EXPECT_THAT(error_of("[sensor]\nmodel = \"vlp61\""),
+              StartsWith("a.toml:2:9: sensor.model = 'vlp61'; expected one of "));
+  EXPECT_EQ(error_of("[filter]\nleaf_m = 2"), "a.toml: model is missing; add it to the section [sensor]");
+  EXPECT_THAT(error_of(kSensor + "oops"), StartsWith("a.toml:3:"));
+  EXPECT_THAT(error_of("can", "fd = true"), HasSubstr("CAN FD is not implemented"));
+  EXPECT_THAT(error_of("sensor", "min_range_m = 300"), HasSubstr("more than min_range_m"));
+  EXPECT_THAT(error_of("sensor = 1"), StartsWith("a.toml:1:10: sensor is a section"));
+}
+
+TEST(Configuration, BadValuesAreRefused) {
+  const std::vector<std::pair<const char*, const char*>> lines{
+      {"sensor", "port = 65536"},
+      {"sensor", "port = 1.5"},
+      {"sensor", "address = \"1.2.3\""},
+      {"sensor", "address = \"1.2.3.4 \""},
+      {"sensor", "cut_deg = 360"},
+      {"sensor", "cut_deg = nan"},
+      {"sensor", "max_range_m = inf"},
+      {"sensor", "calibration = 1"},
+      {"filter", "leaf_m = \"2\""},
+      {"filter", "leaf_m = nan"},
+      {"filter", "leaf_m = true"},
+      {"filter", "leaf_m = 0"},
+      {"matcher", "max_iterations = 0"},
+      {"matcher", "max_iterations = 50.0"},
+      {"matcher", "resolution_m = 0.0"},
+      {"can", "base_id = 0x7F8"},
+      {"can", "base_id = -1"},
+      {"can", "interface = \"can 0\""},
+      {"can", "rate_hz = 0"},
+      {"can", "fd = 0"},
+      {"metrics", "address = \"localhost\""},
+      {"metrics", "address = \"127.0.0.1:0\""},
+      {"metrics", "address = \"127.0.0.1:99999\""},
+      {"metrics", "address = \"unix:metrics\""},
+      {"vehicle", "sensor_pose = [0, 0, 0, 0, 0]"},
+      {"vehicle", "sensor_pose = [0, 0, 0, 0, 0, \"0\"]"},
+      {"vehicle", "sensor_pose = [0, 0, 0, 0, 0, nan]"},
+      {"vehicle", "sensor_pose = 0"},
+      {"initial_pose", "pose = [1e9, 0, 0, 0, 0, 0]"},
+      {"initial_pose", "pose = [0, 0, 0, 0, 0, 361]"},
+  };
+  for (const auto& [section, line] : lines) {
+    EXPECT_THAT(error_of(section, line), HasSubstr("expected ")) << section << ' ' << line;
+  }
+}
+
+TEST(Configuration, PathsStartFromTheFilesFolder) {
+  const test::TemporaryDirectory directory;
+  std::ofstream(directory.path() / "c.toml") << kSensor + "[map]\nfile = \"maps/a.ndt\"\n";
+  EXPECT_EQ(read_configuration(directory.path() / "c.toml").map.file, directory.path() / "maps/a.ndt");
+  EXPECT_TRUE(parse(kSensor).map.file.empty());
+  EXPECT_THROW((void)read_configuration(directory.path() / "absent.toml"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace landfix::platform
