@@ -1,0 +1,282 @@
+// The main job, end to end, on a drive whose truth is exact: simulate, build the map, replay, compare.
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "ndt/map_file.hpp"
+#include "platform/atomic_file.hpp"
+#include "platform/candump_log.hpp"
+#include "platform/e2e.hpp"
+#include "platform/pcap_source.hpp"
+#include "platform/pose_frames.hpp"
+#include "platform/trajectory.hpp"
+#include "support/run_landfix.hpp"
+#include "support/test_data.hpp"
+#include "tools/replay_run.hpp"
+#include "tools/replay_setup.hpp"
+
+namespace landfix::tools {
+namespace {
+
+using testing::HasSubstr;
+
+using test::Outcome;
+
+Outcome landfix(const std::vector<std::string>& words) { return test::run_landfix(words); }
+
+[[nodiscard]] std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// 120 m of the street, simulated once for all tests.
+class SimulatedDrive : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    directory_ = std::make_unique<test::TemporaryDirectory>();
+    const Outcome simulated = landfix(
+        {"simulate", "--route", "street", "--length", "120", "--sensor", "vlp16", "--output", path("")});
+    ASSERT_EQ(simulated.code, 0) << simulated.error;
+    const Outcome mapped =
+        landfix({"map", "--pcd", path("map.pcd"), "--resolution", "1", "--output", path("map.ndt")});
+    ASSERT_EQ(mapped.code, 0) << mapped.error;
+  }
+  static void TearDownTestSuite() { directory_.reset(); }
+
+  [[nodiscard]] static std::string path(const std::string& name) {
+    return (directory_->path() / name).string();
+  }
+
+  [[nodiscard]] static Outcome replay(std::vector<std::string> more = {}) {
+    std::vector<std::string> words{"replay", "--config", path("config.toml")};
+    words.insert(words.end(), more.begin(), more.end());
+    return landfix(words);
+  }
+  [[nodiscard]] static nlohmann::json replay_against_truth(std::vector<std::string> more = {}) {
+    more.insert(more.end(), {"--truth", path("truth.tum"), "--json"});
+    const Outcome outcome = replay(more);
+    EXPECT_EQ(outcome.code, 0) << outcome.error;
+    return nlohmann::json::parse(outcome.out);
+  }
+
+ private:
+  static inline std::unique_ptr<test::TemporaryDirectory> directory_;
+};
+
+TEST_F(SimulatedDrive, IsFollowedToCentimetres) {
+  const nlohmann::json report = replay_against_truth();
+  const nlohmann::json& errors = report["evaluation"];
+  EXPECT_LE(errors["ate_m"]["rmse"], 0.05);
+  EXPECT_LE(errors["heading_deg"]["rmse"], 0.1);
+  EXPECT_LE(errors["elevation_m"]["max"], 0.1);
+  EXPECT_GT(report["sweeps"], 100);
+  // The capture ends a packet or two into a turn: too little to be sure of.
+  EXPECT_GE(report["tracked"].get<int>() + 1, report["sweeps"].get<int>());
+  EXPECT_EQ(report["poses"], report["sweeps"]);
+  EXPECT_EQ(report["lost"], 0);
+  EXPECT_EQ(report["partial"], 2);  // the first and the last
+  EXPECT_EQ(report["time_source"], "sensor");
+  EXPECT_EQ(report["packets"]["rejected"], 0);
+  RecordProperty("position_rmse_m", errors["ate_m"]["rmse"].dump());
+  RecordProperty("heading_rmse_deg", errors["heading_deg"]["rmse"].dump());
+}
+
+TEST_F(SimulatedDrive, NeedsDeskew) {
+  const double with_m = replay_against_truth()["evaluation"]["ate_m"]["rmse"];
+  const double without_m = replay_against_truth({"--no-deskew"})["evaluation"]["ate_m"]["rmse"];
+  EXPECT_GT(without_m, 3.0 * with_m);
+}
+
+TEST_F(SimulatedDrive, MakesNoHeapCallFromPacketToPose) {
+  const nlohmann::json calls = replay_against_truth({"--candump", path("heap.log")})["heap_calls"];
+  if (calls.is_null()) GTEST_SKIP() << "heap calls cannot be counted under a sanitizer";
+  EXPECT_EQ(calls, 0);
+}
+
+TEST_F(SimulatedDrive, ReplaysToTheSameBytes) {
+  for (const std::string run : {"1", "2"}) {
+    ASSERT_EQ(replay({"--pcap", path("capture.pcap"), "--trajectory", path(run + ".tum"), "--candump",
+                      path(run + ".log"), "--svg", path(run + ".svg")})
+                  .code,
+              0);
+  }
+  EXPECT_GT(text_of(path("1.tum")).size(), 1000U);
+  EXPECT_EQ(text_of(path("1.tum")), text_of(path("2.tum")));
+  EXPECT_GT(text_of(path("1.log")).size(), 1000U);
+  EXPECT_EQ(text_of(path("1.log")), text_of(path("2.log")));
+  EXPECT_EQ(text_of(path("1.svg")), text_of(path("2.svg")));
+}
+
+TEST_F(SimulatedDrive, SendsItsPosesAsProtectedFrames) {
+  ASSERT_EQ(replay({"--trajectory", path("t.tum"), "--candump", path("t.log")}).code, 0);
+  const auto poses = platform::read_tum(path("t.tum"));
+  std::ifstream log(path("t.log"));
+  std::string line;
+  for (const ndt::StampedPose& pose : poses) {
+    const ndt::RollPitchYaw angles = ndt::to_roll_pitch_yaw(pose.pose.linear());
+    const auto expect = [&](const platform::FrameLayout& layout, std::vector<double> values) {
+      ASSERT_TRUE(std::getline(log, line));
+      const auto logged = platform::parse_candump_line(line);
+      ASSERT_TRUE(logged.has_value()) << line;
+      EXPECT_EQ(logged->frame.id, 0x3A0U + layout.id_offset);
+      EXPECT_EQ(logged->stamp_utc_ns / 1000, pose.stamp_utc_ns / 1000);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        EXPECT_NEAR(platform::decode_signal(layout.signals[i], logged->frame.data), values[i],
+                    0.51 * layout.signals[i].scale);
+      }
+    };
+    expect(platform::kPositionFrame, {pose.pose.translation().x(), pose.pose.translation().y()});
+    expect(platform::kAttitudeFrame, {angles.yaw_rad, angles.pitch_rad, angles.roll_rad});
+  }
+  EXPECT_FALSE(std::getline(log, line));
+}
+
+/// A capture with garbage between its packets: on the sensor's port, of its size and of others, and
+/// elsewhere.
+class GarbageSource final : public platform::PacketSource {
+ public:
+  explicit GarbageSource(const std::string& path) : source_(path) {}
+
+  [[nodiscard]] platform::ReadStatus next(platform::UdpPacket& packet) noexcept override {
+    if (remembered_.payload.empty() || random_() % 2 == 0) {
+      const platform::ReadStatus status = source_.next(packet);
+      if (status == platform::ReadStatus::packet) remember(packet);
+      return status;
+    }
+    packet = remembered_;
+    const std::size_t kind = random_() % 4;
+    if (kind == 0) {  // a real packet on another port
+      packet.destination_port = 2369;
+    } else if (kind == 1) {  // a real packet cut short
+      packet.payload = packet.payload.first(random_() % 1206);
+    } else {  // noise of the right size, and longer
+      for (std::byte& byte : noise_) byte = static_cast<std::byte>(random_());
+      packet.payload = std::span(noise_).first(kind == 2 ? 1206 : noise_.size());
+    }
+    ++garbage_;
+    return platform::ReadStatus::packet;
+  }
+  [[nodiscard]] std::uint64_t garbage() const { return garbage_; }
+
+ private:
+  void remember(const platform::UdpPacket& packet) noexcept {
+    if (packet.payload.size() != 1206) return;
+    std::copy(packet.payload.begin(), packet.payload.end(), copy_.begin());
+    remembered_ = packet;
+    remembered_.payload = copy_;
+  }
+
+  platform::PcapSource source_;
+  std::mt19937_64 random_{1};
+  std::array<std::byte, 1206> copy_{};
+  std::array<std::byte, 1300> noise_{};
+  platform::UdpPacket remembered_;
+  std::uint64_t garbage_ = 0;
+};
+
+TEST_F(SimulatedDrive, GarbageIsCountedAndChangesNoPose) {
+  ASSERT_EQ(replay({"--trajectory", path("clean.tum")}).code, 0);
+  const ReplaySetup setup = prepare_replay({.config = path("config.toml")});
+  platform::Pipeline pipeline(setup.settings, setup.decoder, setup.map(), nullptr);
+  GarbageSource source(path("capture.pcap"));
+  const ReplayResult result = run_replay(source, pipeline, [](const platform::SweepResult&) {});
+  EXPECT_EQ(platform::format_tum(result.trajectory()), text_of(path("clean.tum")));
+  EXPECT_GT(source.garbage(), 1000U);
+  EXPECT_GT(pipeline.counters().rejected(), source.garbage() / 2);
+  EXPECT_GT(pipeline.counters().other_ports, source.garbage() / 8);
+}
+
+/// A capture of which some packets come twice, and some in the wrong order.
+class DisorderedSource final : public platform::PacketSource {
+ public:
+  explicit DisorderedSource(const std::string& path) : source_(path) {}
+
+  [[nodiscard]] platform::ReadStatus next(platform::UdpPacket& packet) noexcept override {
+    if (held_) {
+      packet = *std::exchange(held_, std::nullopt);
+      return platform::ReadStatus::packet;
+    }
+    const platform::ReadStatus status = source_.next(packet);
+    if (status != platform::ReadStatus::packet || packet.payload.size() != 1206) return status;
+    const std::size_t draw = random_() % 100;
+    if (draw >= 4) return status;
+    std::copy(packet.payload.begin(), packet.payload.end(), copy_.begin());
+    held_ = packet;
+    held_->payload = copy_;
+    return draw < 2 ? status : source_.next(packet);
+  }
+
+ private:
+  platform::PcapSource source_;
+  std::mt19937_64 random_{1};
+  std::array<std::byte, 1206> copy_{};
+  std::optional<platform::UdpPacket> held_;
+};
+
+TEST_F(SimulatedDrive, PacketsThatComeTwiceOrInTheWrongOrderDoNotLoseTheTrack) {
+  const ReplaySetup setup = prepare_replay({.config = path("config.toml")});
+  platform::Pipeline pipeline(setup.settings, setup.decoder, setup.map(), nullptr);
+  DisorderedSource source(path("capture.pcap"));
+  const ReplayResult result = run_replay(source, pipeline, [](const platform::SweepResult&) {});
+  EXPECT_EQ(result.count(ndt::State::lost), 0U);
+  const auto truth = platform::read_tum(path("truth.tum"));
+  for (const platform::SweepResult& sweep : result.sweeps) {
+    const auto there = platform::interpolate(truth, sweep.fix.at.stamp_utc_ns);
+    if (!there || sweep.fix.state != ndt::State::tracking) continue;
+    EXPECT_LT((sweep.fix.at.pose.translation() - there->translation()).norm(), 0.3)
+        << sweep.fix.at.stamp_utc_ns;
+  }
+}
+
+TEST_F(SimulatedDrive, ACaptureThatIsCutShortGivesThePosesThatItHolds) {
+  const std::string whole = text_of(path("capture.pcap"));
+  std::ofstream(path("cut.pcap"), std::ios::binary) << whole.substr(0, whole.size() / 3 + 11);
+  const Outcome outcome =
+      landfix({"replay", "--config", path("config.toml"), "--pcap", path("cut.pcap"), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  const nlohmann::json report = nlohmann::json::parse(outcome.out);
+  EXPECT_TRUE(report["truncated"]);
+  EXPECT_GT(report["poses"], 10);
+}
+
+TEST_F(SimulatedDrive, MistakesAreOneLineThatSaysWhatToDo) {
+  const auto expect = [](const Outcome& outcome, int code, const std::string& part) {
+    EXPECT_EQ(outcome.code, code) << part;
+    EXPECT_THAT(outcome.error, HasSubstr(part));
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+    EXPECT_EQ(outcome.out, "");
+  };
+  const std::string config = text_of(path("config.toml"));
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string changed = config;
+    changed.replace(changed.find(from), from.size(), to);
+    std::ofstream(path("changed.toml")) << changed;
+    return landfix({"replay", "--config", path("changed.toml"), "--pcap", path("capture.pcap")});
+  };
+  expect(with("port = 2368", "port = 2370"), 1, "on port 2370");
+  expect(with("port = 2368", "address = \"10.0.0.1\""), 1, "0 packets to it, 0 rejected");
+  expect(with("model = \"vlp16\"", "model = \"vlp61\""), 1, "vlp61");
+  expect(with("resolution_m = 1.0", "resolution_m = 2.0"), 1, "they must agree");
+  expect(with("leaf_m", "leaf_n"), 1, "leaf_n");
+  expect(replay({"--map", path("missing.ndt")}), 1, "missing.ndt");
+  expect(replay({"--map", path("map.pcd")}), 1, "not a landfix map");
+  expect(replay({"--initial-pose", "1,2,3"}), 2, "--initial-pose");
+  expect(replay({"--truth", path("config.toml")}), 1, "config.toml");
+  expect(replay({"--trajectory", path("no/such/folder.tum")}), 1, "no/such/folder.tum");
+  expect(landfix({"replay", "--config", path("config.toml"), "--pcap", path("map.pcd")}), 1, "map.pcd");
+}
+
+}  // namespace
+}  // namespace landfix::tools

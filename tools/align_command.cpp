@@ -1,0 +1,122 @@
+// landfix align: the pose of one scan from a guess.
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "ndt/fitness.hpp"
+#include "ndt/localizer.hpp"
+#include "ndt/matcher.hpp"
+#include "ndt/voxel_grid.hpp"
+#include "tools/command.hpp"
+#include "tools/input_files.hpp"
+#include "tools/landfix_commands.hpp"
+
+namespace landfix::tools {
+namespace {
+
+struct Arguments {
+  std::string map;
+  std::string scan;
+  std::optional<ndt::Pose> guess;
+  double leaf_m = 2.0;
+  RangeLimits limits;
+  bool json = false;
+};
+
+void print_json(const ndt::MatchResult& result, double fitness_score, double match_ms) {
+  // Row-major; the matrix is symmetric, so Eigen's order does not matter.
+  const std::vector<double> covariance(result.covariance.data(),
+                                       result.covariance.data() + result.covariance.size());
+  const nlohmann::json object{{"converged", result.converged},
+                              {"pose", pose_to_json(result.pose)},
+                              {"covariance", covariance},
+                              {"iterations", result.iterations},
+                              {"fitness_score", fitness_score},
+                              {"transformation_probability", result.transformation_probability},
+                              {"nearest_voxel_likelihood", result.nearest_voxel_likelihood},
+                              {"match_ms", match_ms},
+                              {"points", result.points},
+                              {"points_matched", result.points_matched},
+                              {"fit", ndt::to_string(ndt::judge(result, {}))}};
+  fmt::print("{}\n", object.dump(2));
+}
+
+[[nodiscard]] const char* explain(ndt::Fit fit) {
+  switch (fit) {
+    case ndt::Fit::good:
+      return "good";
+    case ndt::Fit::weak:
+      return "weak: the map explains only a part of the scan";
+    case ndt::Fit::none:
+      break;
+  }
+  return "none: do not believe this pose; try another --guess";
+}
+
+void print_text(const ndt::MatchResult& result, double fitness_score, double match_ms) {
+  const ndt::RollPitchYaw angles = ndt::to_roll_pitch_yaw(result.pose.linear());
+  const auto& t = result.pose.translation();
+  const auto sigma = [&result](int axis) { return std::sqrt(result.covariance(axis, axis)); };
+  fmt::print(
+      "{}\n"
+      "position          {:.4f} {:.4f} {:.4f} m\n"
+      "roll pitch yaw    {:.4f} {:.4f} {:.4f} deg\n"
+      "1 sigma           {:.4f} {:.4f} {:.4f} m, {:.4f} {:.4f} {:.4f} deg\n"
+      "iterations        {}\n"
+      "fitness score     {:.6f} m^2 (mean squared distance to the nearest voxel's mean)\n"
+      "transformation probability {:.4f}, nearest voxel likelihood {:.4f}\n"
+      "points            {}, {} with a voxel near\n"
+      "fit               {}\n"
+      "match             {:.3f} ms\n",
+      result.converged ? "converged" : "NOT converged: the guess may be too far from the truth", t.x(), t.y(),
+      t.z(), angles.roll_rad / kRadians_per_deg, angles.pitch_rad / kRadians_per_deg,
+      angles.yaw_rad / kRadians_per_deg, sigma(0), sigma(1), sigma(2), sigma(3) / kRadians_per_deg,
+      sigma(4) / kRadians_per_deg, sigma(5) / kRadians_per_deg, result.iterations, fitness_score,
+      result.transformation_probability, result.nearest_voxel_likelihood, result.points,
+      result.points_matched, explain(ndt::judge(result, {})), match_ms);
+}
+
+void align(const Arguments& arguments) {
+  const ndt::MapImage image = load_map_file(arguments.map);
+  const ndt::VoxelMap map(image.bytes());
+  const auto scan = load_scan(arguments.scan, arguments.limits);
+  if (scan.empty()) {
+    throw std::runtime_error(
+        fmt::format("{}: no point between {} m and {} m of the origin; see --min-range, --max-range",
+                    arguments.scan, arguments.limits.min_m, arguments.limits.max_m));
+  }
+  ndt::VoxelGrid grid(arguments.leaf_m, scan.size());
+  for (const Eigen::Vector3f& point_m : scan) grid.add(point_m);
+  const auto points_m = grid.finish();
+
+  const auto began = std::chrono::steady_clock::now();
+  const ndt::MatchResult result = ndt::Matcher({}).match(map, points_m, arguments.guess.value());
+  const double match_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
+  const double fitness_score = ndt::FitnessScore(map)(points_m, result.pose);
+  (arguments.json ? print_json : print_text)(result, fitness_score, match_ms);
+}
+
+}  // namespace
+
+void add_align_command(CLI::App& app) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App& command = *app.add_subcommand("align", "the pose of one scan, from a guess");
+  command.add_option("--map", arguments->map, "map, made by landfix map")->required()->type_name("MAP.ndt");
+  command.add_option("--scan", arguments->scan, "scan in the vehicle frame")
+      ->required()
+      ->type_name("SCAN.pcd");
+  add_pose_option(command, "--guess", arguments->guess, "pose to start from, map <- vehicle [m, deg]")
+      ->required();
+  add_leaf_option(command, arguments->leaf_m);
+  add_range_options(command, arguments->limits);
+  add_json_option(command, arguments->json);
+  command.callback([arguments] { align(*arguments); });
+}
+
+}  // namespace landfix::tools

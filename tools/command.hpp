@@ -1,0 +1,32 @@
+// What the commands of `landfix` share: how one is declared, and how it fails.
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+namespace landfix::tools {
+
+/// Arguments that parse but cannot be used together or with this input: one line, exit 2.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Adds a subcommand with its options to `app`; its callback runs the command. Each command is one file.
+/// Anything but UsageError that it throws is one line on stderr and exit 1.
+using AddCommand = void (*)(CLI::App& app);
+
+/// Runs `landfix` with its arguments; returns the exit code.
+[[nodiscard]] int run(int argc, const char* const* argv);
+
+/// Progress, as one line on stderr that the next one overwrites and an empty one erases; nothing where stderr
+/// is not a terminal.
+void show_progress(std::string_view text);
+
+/// The option --json, the same in every command: one object on stdout and nothing else.
+void add_json_option(CLI::App& command, bool& json);
+
+}  // namespace landfix::tools

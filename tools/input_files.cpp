@@ -1,0 +1,93 @@
+#include "tools/input_files.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "ndt/map_file.hpp"
+#include "ndt/pcd.hpp"
+#include "platform/atomic_file.hpp"
+#include "tools/command.hpp"
+
+namespace landfix::tools {
+
+ndt::MapImage load_map_file(const std::filesystem::path& path) {
+  return ndt::load_map(platform::read_file(path), path.string());
+}
+
+std::vector<Eigen::Vector3f> load_scan(const std::filesystem::path& path, const RangeLimits& limits) {
+  std::vector<Eigen::Vector3f> points_m;
+  ndt::visit_pcd_positions(platform::read_file(path), path.string(), [&](const Eigen::Vector3d& point_m) {
+    const double range_m = point_m.norm();
+    if (range_m >= limits.min_m && range_m <= limits.max_m) points_m.emplace_back(point_m.cast<float>());
+  });
+  return points_m;
+}
+
+std::vector<std::filesystem::path> list_clouds(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path))
+    throw std::runtime_error(fmt::format("{}: no such file or folder", path.string()));
+  if (!std::filesystem::is_directory(path)) return {path};
+  std::vector<std::filesystem::path> clouds;
+  for (const auto& entry : std::filesystem::directory_iterator(path)) {
+    if (entry.is_regular_file() && entry.path().extension() == ".pcd") clouds.push_back(entry.path());
+  }
+  if (clouds.empty()) throw UsageError(fmt::format("{}: no .pcd file in this folder", path.string()));
+  std::sort(clouds.begin(), clouds.end());
+  return clouds;
+}
+
+void add_range_options(CLI::App& command, RangeLimits& limits) {
+  command.add_option("--min-range", limits.min_m, "points nearer to the origin are left out [m]")
+      ->check(CLI::NonNegativeNumber.description(""))
+      ->type_name("M")
+      ->capture_default_str();
+  command.add_option("--max-range", limits.max_m, "points farther from the origin are left out [m]")
+      ->check(CLI::PositiveNumber.description(""))
+      ->type_name("M")
+      ->capture_default_str();
+}
+
+void add_leaf_option(CLI::App& command, double& leaf_m) {
+  command.add_option("--leaf", leaf_m, "edge of a cell of the scan's voxel filter [m]")
+      ->check(CLI::Range(0.01, 100.0).description(""))
+      ->type_name("M")
+      ->capture_default_str();
+}
+
+CLI::Option* add_pose_option(CLI::App& command, const std::string& name, std::optional<ndt::Pose>& pose,
+                             const std::string& description) {
+  const auto parse = [&pose, name](const std::vector<std::string>& words) {
+    std::array<double, 6> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!CLI::detail::lexical_cast(words[i], values[i]) || !std::isfinite(values[i])) {
+        throw CLI::ValidationError(name, fmt::format("'{}' is not a number", words[i]));
+      }
+    }
+    const auto& [x, y, z, roll_deg, pitch_deg, yaw_deg] = values;
+    pose = ndt::make_pose({x, y, z}, {.roll_rad = roll_deg * kRadians_per_deg,
+                                      .pitch_rad = pitch_deg * kRadians_per_deg,
+                                      .yaw_rad = yaw_deg * kRadians_per_deg});
+    return true;
+  };
+  return command.add_option(name, parse, description)
+      ->delimiter(',')
+      ->expected(6)
+      ->type_size(1)
+      ->type_name("X,Y,Z,ROLL_DEG,PITCH_DEG,YAW_DEG");
+}
+
+nlohmann::json pose_to_json(const ndt::Pose& pose) {
+  const ndt::RollPitchYaw angles = ndt::to_roll_pitch_yaw(pose.linear());
+  return {pose.translation().x(),
+          pose.translation().y(),
+          pose.translation().z(),
+          angles.roll_rad / kRadians_per_deg,
+          angles.pitch_rad / kRadians_per_deg,
+          angles.yaw_rad / kRadians_per_deg};
+}
+
+}  // namespace landfix::tools

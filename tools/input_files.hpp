@@ -1,0 +1,54 @@
+// What several commands read: maps, scans, poses on the command line.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include "ndt/map_image.hpp"
+#include "ndt/pose.hpp"
+
+namespace landfix::tools {
+
+using ndt::kRadians_per_deg;
+
+/// Voxels that a map has room for unless more are asked for.
+inline constexpr std::size_t kMapCapacity = 4'000'000;
+
+/// Ranges between which points of a scan count; those of the reference study by default.
+struct RangeLimits {
+  double min_m = 3.0;
+  double max_m = 200.0;
+};
+
+/// A validated map. Throws std::runtime_error that says what is wrong with the file.
+[[nodiscard]] ndt::MapImage load_map_file(const std::filesystem::path& path);
+
+/// The finite points of a PCD file within the limits, in the frame it gives them in.
+[[nodiscard]] std::vector<Eigen::Vector3f> load_scan(const std::filesystem::path& path,
+                                                     const RangeLimits& limits);
+
+/// The file that `path` is, or the PCD files of the folder that it is, by name. Throws UsageError where the
+/// folder has none, std::runtime_error where there is nothing of that name.
+[[nodiscard]] std::vector<std::filesystem::path> list_clouds(const std::filesystem::path& path);
+
+/// --min-range and --max-range.
+void add_range_options(CLI::App& command, RangeLimits& limits);
+
+/// --leaf, the edge of the input filter's cells.
+void add_leaf_option(CLI::App& command, double& leaf_m);
+
+/// An option that takes X,Y,Z,ROLL_DEG,PITCH_DEG,YAW_DEG.
+CLI::Option* add_pose_option(CLI::App& command, const std::string& name, std::optional<ndt::Pose>& pose,
+                             const std::string& description);
+
+/// [x y z roll_deg pitch_deg yaw_deg]
+[[nodiscard]] nlohmann::json pose_to_json(const ndt::Pose& pose);
+
+}  // namespace landfix::tools

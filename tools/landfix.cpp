@@ -1,0 +1,3 @@
+#include "tools/command.hpp"
+
+int main(int argc, char** argv) { return landfix::tools::run(argc, argv); }

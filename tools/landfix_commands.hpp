@@ -1,0 +1,21 @@
+// The commands of `landfix`, in the order in which --help lists them.
+#pragma once
+
+#include <span>
+
+#include "tools/command.hpp"
+
+namespace landfix::tools {
+
+void add_sensors_command(CLI::App& app);
+void add_decode_command(CLI::App& app);
+void add_map_command(CLI::App& app);
+void add_align_command(CLI::App& app);
+void add_benchmark_command(CLI::App& app);
+void add_replay_command(CLI::App& app);
+void add_evaluate_command(CLI::App& app);
+void add_simulate_command(CLI::App& app);
+
+extern const std::span<const AddCommand> kCommands;
+
+}  // namespace landfix::tools

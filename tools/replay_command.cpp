@@ -1,0 +1,117 @@
+// landfix replay: a capture through the vehicle's own pipeline.
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "platform/atomic_file.hpp"
+#include "platform/candump_log.hpp"
+#include "platform/evaluation.hpp"
+#include "platform/pcap_source.hpp"
+#include "platform/pipeline.hpp"
+#include "platform/trajectory.hpp"
+#include "tools/capture_losses.hpp"
+#include "tools/command.hpp"
+#include "tools/evaluation_report.hpp"
+#include "tools/input_files.hpp"
+#include "tools/landfix_commands.hpp"
+#include "tools/replay_report.hpp"
+#include "tools/replay_run.hpp"
+#include "tools/replay_setup.hpp"
+#include "tools/trajectory_svg.hpp"
+
+namespace landfix::tools {
+namespace {
+
+struct Arguments {
+  ReplayInput input;
+  std::string pcap;
+  std::string trajectory;
+  std::string candump;
+  std::string truth;
+  std::string svg;
+  bool json = false;
+};
+
+[[nodiscard]] std::vector<Eigen::Vector3f> voxel_means(const ndt::VoxelMap& map) {
+  std::vector<Eigen::Vector3f> means_m;
+  ndt::visit_voxels(map, [&means_m](const ndt::Voxel& /*voxel*/, const Eigen::Vector3d& mean_m) {
+    means_m.emplace_back(mean_m.cast<float>());
+  });
+  return means_m;
+}
+
+void write_svg(const Arguments& arguments, const ndt::VoxelMap& map,
+               const std::vector<ndt::StampedPose>& trajectory, const std::vector<ndt::StampedPose>& truth) {
+  platform::AtomicFile file(arguments.svg);
+  file.write(trajectory_svg(voxel_means(map), trajectory, truth));
+  file.commit();
+}
+
+void replay(const Arguments& arguments) {
+  const ReplaySetup setup = prepare_replay(arguments.input);
+  const ndt::VoxelMap map = setup.map();
+  const auto truth =
+      arguments.truth.empty() ? std::vector<ndt::StampedPose>() : platform::read_tum(arguments.truth);
+  std::optional<platform::CandumpLog> bus;
+  if (!arguments.candump.empty()) bus.emplace(arguments.candump, setup.configuration.can.interface);
+  const std::filesystem::path capture = arguments.pcap.empty()
+                                            ? arguments.input.config.parent_path() / "capture.pcap"
+                                            : std::filesystem::path(arguments.pcap);
+  platform::PcapSource source(capture);
+  platform::Pipeline pipeline(setup.settings, setup.decoder, map, bus ? &*bus : nullptr);
+
+  const ReplayResult result = run_replay(source, pipeline, [&source](const platform::SweepResult& sweep) {
+    show_progress(fmt::format("{:3.0f} %  {}", source.percent_read(), ndt::to_string(sweep.fix.state)));
+  });
+  show_progress("");
+  warn_of_losses(capture.string(), source.counters());
+  if (result.sweeps.empty()) {
+    throw std::runtime_error(fmt::format(
+        "{}: no sweep of a {} on port {}: {} packets to it, {} rejected, {} from other "
+        "senders, {} to other ports; see `landfix decode --pcap`",
+        capture.string(), setup.model.name, setup.settings.port, pipeline.counters().packets,
+        pipeline.counters().rejected(), pipeline.counters().other_senders, pipeline.counters().other_ports));
+  }
+
+  const auto trajectory = result.trajectory();
+  if (!arguments.trajectory.empty()) platform::write_tum(arguments.trajectory, trajectory);
+  if (bus) bus->commit();
+  if (!arguments.svg.empty()) write_svg(arguments, map, trajectory, truth);
+  ReplayReport report{.result = result, .pipeline = pipeline, .evaluation = {}};
+  if (!arguments.truth.empty() && !trajectory.empty())
+    report.evaluation = platform::evaluate(truth, trajectory);
+  fmt::print("{}", arguments.json ? to_json(report).dump(2) + "\n" : to_text(report));
+}
+
+}  // namespace
+
+void add_replay_command(CLI::App& app) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App& command =
+      *app.add_subcommand("replay", "a capture through the vehicle's pipeline: packets in, poses out");
+  const auto add_file = [&command](const char* name, auto& path, const char* type, const char* what) {
+    return command.add_option(name, path, what)->type_name(type);
+  };
+  add_file("--config", arguments->input.config, "FILE",
+           "configuration (config/landfix.toml explains every key)")
+      ->required();
+  add_file("--pcap", arguments->pcap, "FILE",
+           "capture, pcap or pcapng; else capture.pcap beside the configuration");
+  add_file("--map", arguments->input.map, "MAP.ndt", "map, in place of the configuration's");
+  add_pose_option(command, "--initial-pose", arguments->input.initial_pose,
+                  "pose at the first sweep, map <- vehicle [m, deg], in place of the configuration's");
+  add_file("--trajectory", arguments->trajectory, "OUT.tum", "write the poses");
+  add_file("--candump", arguments->candump, "OUT.log", "write the CAN frames, as candump -l does");
+  add_file("--truth", arguments->truth, "TRUTH.tum", "true trajectory: report the errors against it");
+  add_file("--svg", arguments->svg, "OUT.svg", "draw the trajectory over the map");
+  command.add_flag("--no-deskew{false}", arguments->input.deskew,
+                   "leave the sweep's motion distortion in, to see what it costs");
+  add_json_option(command, arguments->json);
+  command.callback([arguments] { replay(*arguments); });
+}
+
+}  // namespace landfix::tools

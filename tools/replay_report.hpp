@@ -1,0 +1,24 @@
+// A replay as people read it and as programs do.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "platform/evaluation.hpp"
+#include "platform/pipeline.hpp"
+#include "tools/replay_run.hpp"
+
+namespace landfix::tools {
+
+struct ReplayReport {
+  const ReplayResult& result;
+  const platform::Pipeline& pipeline;
+  std::optional<platform::Evaluation> evaluation;  ///< where the truth is known
+};
+
+[[nodiscard]] nlohmann::ordered_json to_json(const ReplayReport& report);
+[[nodiscard]] std::string to_text(const ReplayReport& report);
+
+}  // namespace landfix::tools

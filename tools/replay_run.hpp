@@ -1,0 +1,35 @@
+// A replay: the pipeline fed from a capture, and what came out of it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "ndt/pose.hpp"
+#include "platform/pcap_source.hpp"
+#include "platform/pipeline.hpp"
+
+namespace landfix::tools {
+
+struct ReplayResult {
+  std::vector<platform::SweepResult> sweeps;
+  bool truncated = false;  ///< the capture ends in the middle of a record
+
+  // In receiving, solving and publishing, not in keeping the results; nothing where it cannot be counted.
+  std::optional<std::uint64_t> heap_calls;
+  std::int64_t page_faults = 0;
+
+  /// The usable poses: PREDICTED, DEGRADED, TRACKING; with rising stamps.
+  [[nodiscard]] std::vector<ndt::StampedPose> trajectory() const;
+  [[nodiscard]] std::size_t count(ndt::State state) const;
+  [[nodiscard]] std::size_t partial() const;     ///< sweeps that are not whole turns
+  [[nodiscard]] double iterations_mean() const;  ///< NaN of no sweep
+  [[nodiscard]] double points_mean() const;      ///< after the filter; NaN of no sweep
+};
+
+/// Feeds all of `source` to the pipeline. `on_sweep` is called after each sweep, for progress.
+[[nodiscard]] ReplayResult run_replay(platform::PacketSource& source, platform::Pipeline& pipeline,
+                                      const std::function<void(const platform::SweepResult&)>& on_sweep);
+
+}  // namespace landfix::tools

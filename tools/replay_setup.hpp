@@ -1,0 +1,40 @@
+// From a configuration to what a replay needs, each part checked.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "drivers/any_decoder.hpp"
+#include "drivers/sensor_model.hpp"
+#include "ndt/map_image.hpp"
+#include "ndt/pose.hpp"
+#include "ndt/voxel_map.hpp"
+#include "platform/configuration.hpp"
+#include "platform/pipeline.hpp"
+
+namespace landfix::tools {
+
+/// What the command line says beside the configuration.
+struct ReplayInput {
+  std::filesystem::path config;
+  std::filesystem::path map{};              ///< empty: the configuration's
+  std::optional<ndt::Pose> initial_pose{};  ///< nothing: the configuration's
+  bool deskew = true;
+};
+
+struct ReplaySetup {
+  platform::Configuration configuration;
+  const drivers::SensorModel& model;
+  platform::PipelineSettings settings;
+  drivers::AnyDecoder decoder;
+  ndt::MapImage image;
+
+  /// A view of `image`.
+  [[nodiscard]] ndt::VoxelMap map() const { return ndt::VoxelMap(image.bytes()); }
+};
+
+/// Throws UsageError where the map or the initial pose is given nowhere, std::runtime_error where a file does
+/// not do.
+[[nodiscard]] ReplaySetup prepare_replay(const ReplayInput& input);
+
+}  // namespace landfix::tools

@@ -1,0 +1,51 @@
+#include "tools/simulator/drive.hpp"
+
+#include <array>
+#include <utility>
+
+#include "tools/simulator/car_model.hpp"
+#include "tools/simulator/traffic.hpp"
+
+namespace landfix::tools::simulator {
+namespace {
+
+Scene make_scene(const World& world) {
+  const std::array<const Mesh*, 2> standing{&world.surveyed, &world.parked};
+  return {standing, car_models()};
+}
+
+}  // namespace
+
+ndt::Pose SensorMounting::pose() const noexcept {
+  return ndt::make_pose(position_m, {.roll_rad = ndt::kRadians_per_deg * roll_deg,
+                                     .pitch_rad = ndt::kRadians_per_deg * pitch_deg,
+                                     .yaw_rad = ndt::kRadians_per_deg * yaw_deg});
+}
+
+Drive::Drive(Route route, std::uint64_t seed)
+    : route_(std::move(route)),
+      seed_(seed),
+      path_(route_),
+      ground_(path_, route_.road, plan_side_streets(route_, path_, seed), seed),
+      world_(build_world(route_, ground_, seed)),
+      vehicle_(route_, ground_),
+      scene_(make_scene(world_)) {}
+
+std::size_t Drive::packets() const noexcept {
+  return static_cast<std::size_t>(vehicle_.duration_s() * 1e9 / static_cast<double>(vlp16::kPacket_ns));
+}
+
+Vlp16Firings Drive::fire(std::size_t packet) const {
+  constexpr double kLongestCar_m = 6.0;
+  const std::int64_t start_ns = static_cast<std::int64_t>(packet) * vlp16::kPacket_ns;
+  const double start_s = 1e-9 * static_cast<double>(start_ns);
+  const std::vector<MovingCar> cars =
+      cars_near_vehicle(world_.traffic, ground_, vehicle_, start_s, vlp16::kMaxRange_m + kLongestCar_m);
+  const ndt::Pose mounting = kSensorMounting.pose();
+  const auto sensor_at = [&](double after_s) -> ndt::Pose {
+    return vehicle_.pose_at(start_s + after_s) * mounting;
+  };
+  return fire_packet(scene_, sensor_at, cars, kDriveStart_utc_ns + start_ns, packet, {.seed = seed_});
+}
+
+}  // namespace landfix::tools::simulator

@@ -1,0 +1,231 @@
+#include "tools/simulator/ground.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "ndt/pose.hpp"
+#include "tools/simulator/random.hpp"
+
+namespace landfix::tools::simulator {
+namespace {
+
+constexpr double kCrossFall = 0.02;
+constexpr double kPavementFall = 0.015;
+constexpr double kKerb_m = 0.12;
+constexpr double kLoweredKerb_m = 0.02;
+constexpr double kVergeBlend_m = 4.5;    // from the pavement's level to the land's
+constexpr double kVergeOverlap_m = 1.5;  // where road sheet and land sheet lie on each other
+constexpr double kLandReach_m = 70.0;
+constexpr double kLandCell_m = 1.0;
+constexpr double kCoarseSpacing_m = 2.0;
+constexpr double kWheelbase_m = 2.7;
+constexpr double kTrack_m = 1.56;
+
+struct Wave {
+  double amplitude_m;
+  double length_m;
+  double direction_rad;
+};
+// A road is even to millimetres, land to decimetres.
+constexpr std::array kRoadWaves{Wave{0.003, 13.0, 0.2}, Wave{0.002, 7.3, -0.5}, Wave{0.0015, 5.1, 1.1}};
+constexpr std::array kLandWaves{Wave{0.10, 23.0, 0.4}, Wave{0.05, 11.0, 1.9}, Wave{0.03, 6.3, 2.8},
+                                Wave{0.015, 3.7, 1.2}};
+
+template <std::size_t N>
+double unevenness_m(const std::array<Wave, N>& waves, double x_m, double y_m, double phase_rad) {
+  double sum_m = 0.0;
+  for (std::size_t i = 0; i < N; ++i) {
+    const double along_m = x_m * std::cos(waves[i].direction_rad) + y_m * std::sin(waves[i].direction_rad);
+    sum_m += waves[i].amplitude_m * std::sin(2.0 * std::numbers::pi * along_m / waves[i].length_m +
+                                             phase_rad * static_cast<double>(i + 1));
+  }
+  return sum_m;
+}
+
+double smooth_step(double u) {
+  const double v = std::clamp(u, 0.0, 1.0);
+  return v * v * (3.0 - 2.0 * v);
+}
+
+}  // namespace
+
+Ground::Ground(const Path& path, const RoadProfile& road, std::vector<SideStreet> side_streets,
+               std::uint64_t seed)
+    : path_(path),
+      road_(road),
+      side_streets_(std::move(side_streets)),
+      phase_rad_(2.0 * std::numbers::pi * to_unit(mix_bits(seed))) {
+  for (double s = path.first_station_m(); s <= path.last_station_m(); s += kCoarseSpacing_m) {
+    coarse_.push_back(path.at(s));
+  }
+  survey_land();
+}
+
+double Ground::corridor_half_width_m() const noexcept {
+  return road_.half_width_m() + road_.pavement_width_m + kVergeBlend_m + kVergeOverlap_m;
+}
+
+bool Ground::in_side_street(double station_m, bool left, double margin_m) const noexcept {
+  return std::ranges::any_of(side_streets_, [&](const SideStreet& street) {
+    return street.left == left && std::abs(street.station_m - station_m) < 0.5 * street.width_m + margin_m;
+  });
+}
+
+double Ground::kerb_m(double station_m, bool left) const noexcept {
+  constexpr double kRamp_m = 1.5;
+  double kerb_m = kKerb_m;
+  for (const SideStreet& street : side_streets_) {
+    if (street.left != left) continue;
+    const double beyond_m = std::abs(street.station_m - station_m) - 0.5 * street.width_m;
+    kerb_m = std::min(kerb_m, kLoweredKerb_m + (kKerb_m - kLoweredKerb_m) * smooth_step(beyond_m / kRamp_m));
+  }
+  return kerb_m;
+}
+
+/// Height over the crown of the road, `across_m` left of its middle.
+double Ground::profile_m(double station_m, double across_m) const noexcept {
+  const double half_m = road_.half_width_m();
+  const double away_m = std::abs(across_m);
+  if (away_m <= half_m) return -kCrossFall * away_m;
+  const double on_pavement_m = std::min(away_m - half_m, road_.pavement_width_m);
+  return -kCrossFall * half_m + kerb_m(station_m, across_m > 0.0) + kPavementFall * on_pavement_m;
+}
+
+double Ground::road_height_m(const PathPoint& point, double station_m, double across_m) const noexcept {
+  const double under_vehicle_m = -kCrossFall * std::abs(road_.centre_offset_m());
+  return point.position_m.z() + profile_m(station_m, across_m) - under_vehicle_m +
+         unevenness_m(kRoadWaves, station_m, across_m, phase_rad_);
+}
+
+double Ground::height_m(const RoadPosition& place) const noexcept {
+  const PathPoint point = path_.at(place.station_m);
+  const double across_m = place.offset_m - road_.centre_offset_m();
+  const double verge_m = std::abs(across_m) - road_.half_width_m() - road_.pavement_width_m;
+  const double road_m = road_height_m(point, place.station_m, across_m);
+  if (verge_m <= 0.0) return road_m;
+  const Eigen::Vector2d xy_m = point.position_m.head<2>() + place.offset_m * point.left();
+  return std::lerp(road_m, land_height_m(xy_m), smooth_step(verge_m / kVergeBlend_m));
+}
+
+double Ground::height_m(const Eigen::Vector2d& xy_m) const noexcept {
+  const RoadPosition place = project(xy_m);
+  const double across_m = std::abs(place.offset_m - road_.centre_offset_m());
+  return across_m < corridor_half_width_m() ? height_m(place) : land_height_m(xy_m);
+}
+
+Eigen::Vector3d Ground::point_m(const RoadPosition& place) const noexcept {
+  const PathPoint point = path_.at(place.station_m);
+  const Eigen::Vector2d xy_m = point.position_m.head<2>() + place.offset_m * point.left();
+  return {xy_m.x(), xy_m.y(), height_m(place)};
+}
+
+RoadPosition Ground::project(const Eigen::Vector2d& xy_m) const noexcept {
+  std::size_t nearest = 0;
+  double least_m2 = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < coarse_.size(); ++i) {
+    const double distance_m2 = (coarse_[i].position_m.head<2>() - xy_m).squaredNorm();
+    if (distance_m2 < least_m2) {
+      least_m2 = distance_m2;
+      nearest = i;
+    }
+  }
+  double station_m = path_.first_station_m() + kCoarseSpacing_m * static_cast<double>(nearest);
+  for (int step = 0; step < 3; ++step) {  // Newton, curvature left out: it converges from 1 m
+    const PathPoint point = path_.at(station_m);
+    station_m += (xy_m - point.position_m.head<2>()).dot(point.forward());
+    station_m = std::clamp(station_m, path_.first_station_m(), path_.last_station_m());
+  }
+  const PathPoint point = path_.at(station_m);
+  const Eigen::Vector2d away_m = xy_m - point.position_m.head<2>();
+  return {.station_m = station_m, .offset_m = std::copysign(away_m.norm(), away_m.dot(point.left()))};
+}
+
+Eigen::Vector2d Ground::land_node_m(std::size_t column, std::size_t row) const noexcept {
+  return land_.origin_m +
+         kLandCell_m * Eigen::Vector2d(static_cast<double>(column), static_cast<double>(row));
+}
+
+void Ground::survey_land() {
+  Eigen::AlignedBox2d box;
+  for (const PathPoint& point : coarse_) box.extend(Eigen::Vector2d(point.position_m.head<2>()));
+  land_.origin_m = box.min().array() - kLandReach_m;
+  const Eigen::Vector2d size_m = box.sizes().array() + 2.0 * kLandReach_m;
+  land_.columns = static_cast<std::size_t>(size_m.x() / kLandCell_m) + 2;
+  land_.rows = static_cast<std::size_t>(size_m.y() / kLandCell_m) + 2;
+  land_.height_m.assign(land_.columns * land_.rows, 0.0F);
+  land_.distance_m.assign(land_.columns * land_.rows, std::numeric_limits<float>::infinity());
+  for (std::size_t row = 0; row < land_.rows; ++row) {
+    for (std::size_t column = 0; column < land_.columns; ++column) {
+      const Eigen::Vector2d xy_m = land_node_m(column, row);
+      // Inverse distance weighting: the land is as high as the road near it.
+      double weights = 0.0;
+      double height_m = 0.0;
+      double nearest_m2 = std::numeric_limits<double>::infinity();
+      for (const PathPoint& point : coarse_) {
+        const double distance_m2 = (point.position_m.head<2>() - xy_m).squaredNorm();
+        const double inverse = 1.0 / (distance_m2 + 1.0);
+        const double weight = inverse * inverse * inverse;
+        weights += weight;
+        height_m += weight * point.position_m.z();
+        nearest_m2 = std::min(nearest_m2, distance_m2);
+      }
+      const std::size_t node = row * land_.columns + column;
+      land_.height_m[node] =
+          static_cast<float>(height_m / weights + unevenness_m(kLandWaves, xy_m.x(), xy_m.y(), phase_rad_));
+      if (nearest_m2 < kLandReach_m * kLandReach_m) {
+        const double distance_m = distance_to_road_m(xy_m);
+        land_.distance_m[node] = static_cast<float>(
+            beyond_the_ends(xy_m) ? std::max(distance_m, corridor_half_width_m()) : distance_m);
+      }
+    }
+  }
+}
+
+double Ground::land_height_m(const Eigen::Vector2d& xy_m) const noexcept {
+  const Eigen::Vector2d cell = (xy_m - land_.origin_m) / kLandCell_m;
+  const double x = std::clamp(cell.x(), 0.0, static_cast<double>(land_.columns) - 1.001);
+  const double y = std::clamp(cell.y(), 0.0, static_cast<double>(land_.rows) - 1.001);
+  const auto column = static_cast<std::size_t>(x);
+  const auto row = static_cast<std::size_t>(y);
+  const double u = x - static_cast<double>(column);
+  const double v = y - static_cast<double>(row);
+  const auto at = [this](std::size_t c, std::size_t r) {
+    return static_cast<double>(land_.height_m[r * land_.columns + c]);
+  };
+  return std::lerp(std::lerp(at(column, row), at(column + 1, row), u),
+                   std::lerp(at(column, row + 1), at(column + 1, row + 1), u), v);
+}
+
+bool Ground::beyond_the_ends(const Eigen::Vector2d& xy_m) const noexcept {
+  constexpr double kSeam_m = 1.0;
+  const RoadPosition place = project(xy_m);
+  const PathPoint point = path_.at(place.station_m);
+  return std::abs((xy_m - point.position_m.head<2>()).dot(point.forward())) > kSeam_m;
+}
+
+double Ground::distance_to_road_m(const Eigen::Vector2d& xy_m) const noexcept {
+  return std::abs(project(xy_m).offset_m - road_.centre_offset_m());
+}
+
+Place Ground::vehicle_place(const RoadPosition& place, double turn_rad) const noexcept {
+  const double side_m = 0.5 * kTrack_m;
+  const double left_m = height_m(RoadPosition{place.station_m, place.offset_m + side_m});
+  const double right_m = height_m(RoadPosition{place.station_m, place.offset_m - side_m});
+  const double rear_m = 0.5 * (left_m + right_m);
+  const double ahead_m = kWheelbase_m * std::cos(turn_rad);
+  const double aside_m = kWheelbase_m * std::sin(turn_rad);
+  const double front_m = height_m(RoadPosition{place.station_m + ahead_m, place.offset_m + aside_m});
+  // Left and right are the road's; a vehicle that faces the other way has them swapped.
+  const double left_rise_m = (left_m - right_m) * std::cos(turn_rad);
+  const PathPoint point = path_.at(place.station_m);
+  const Eigen::Vector2d xy_m = point.position_m.head<2>() + place.offset_m * point.left();
+  return ndt::make_pose({xy_m.x(), xy_m.y(), rear_m},
+                        {.roll_rad = std::asin(left_rise_m / kTrack_m),
+                         .pitch_rad = -std::asin((front_m - rear_m) / kWheelbase_m),
+                         .yaw_rad = point.heading_rad + turn_rad});
+}
+
+}  // namespace landfix::tools::simulator

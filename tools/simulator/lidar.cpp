@@ -1,0 +1,42 @@
+#include "tools/simulator/lidar.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/simulator/random.hpp"
+
+namespace landfix::tools::simulator {
+namespace {
+
+/// A return is found if enough light comes back: less from afar, from the dark and at a grazing angle (the
+/// LiDAR equation). The constant lets one return in ten of asphalt go missing at 12 m and most of them at 40
+/// m, while a wall answers up to the full range.
+double detection_probability(const Hit& hit) noexcept {
+  constexpr double kAlwaysSome = 0.998;
+  constexpr double kGain = 9.0;
+  const double relative_range = hit.range_m / vlp16::kMaxRange_m;
+  const double light = hit.reflectivity * hit.cos_incidence / (relative_range * relative_range);
+  return kAlwaysSome * (1.0 - std::exp(-kGain * light));
+}
+
+/// Calibrated reflectivity in percent, retro-reflectors above 100; what the calibration leaves of the angle
+/// of incidence, and noise.
+std::uint8_t reflectivity_raw(const Hit& hit, std::uint64_t bits) noexcept {
+  const double percent = 100.0 * hit.reflectivity * (0.5 + 0.5 * hit.cos_incidence);
+  return static_cast<std::uint8_t>(std::clamp(percent * (1.0 + 0.06 * to_normal(bits)), 0.0, 255.0));
+}
+
+}  // namespace
+
+Vlp16Return measure(const std::optional<Hit>& hit, std::uint64_t firing, const LidarNoise& noise) noexcept {
+  if (!hit) return {};
+  const std::uint64_t dropout = random_bits(noise.seed, RandomStream::dropout, firing);
+  if (noise.dropouts && to_unit(dropout) >= detection_probability(*hit)) return {};
+  const std::uint64_t bits = random_bits(noise.seed, RandomStream::range_noise, firing);
+  const double range_m = hit->range_m + noise.range_sigma_m * to_normal(bits);
+  if (range_m < vlp16::kMinRange_m || range_m > vlp16::kMaxRange_m) return {};
+  return {.distance_raw = static_cast<std::uint16_t>(std::lround(range_m / vlp16::kDistanceUnit_m)),
+          .reflectivity_raw = reflectivity_raw(*hit, mix_bits(dropout))};
+}
+
+}  // namespace landfix::tools::simulator

@@ -1,0 +1,233 @@
+#include "tools/simulator/route.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <set>
+#include <span>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include "platform/atomic_file.hpp"
+#include "tools/simulator/embedded_routes.hpp"
+
+namespace landfix::tools::simulator {
+namespace {
+
+constexpr double kShortestDrive_m = 20.0;
+constexpr double kLongestRoute_m = 5'000.0;  // the work of surveying the land around grows with its cube
+
+struct Range {
+  double low;
+  double high;
+};
+
+/// Reads the keys of one table; what nobody asked for is an error.
+class TableReader {
+ public:
+  TableReader(const toml::table& table, std::string file) : table_(table), file_(std::move(file)) {}
+
+  [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
+
+  [[nodiscard]] double number(std::string_view key, double fallback, Range range) {
+    const toml::node* const node = find(key);
+    if (node == nullptr) return fallback;
+    const auto value = node->value<double>();
+    if (!value || !(*value >= range.low && *value <= range.high)) {
+      fail(*node, fmt::format("{} must be a number from {} to {}", key, range.low, range.high));
+    }
+    return *value;
+  }
+
+  [[nodiscard]] double number(std::string_view key, Range range) {
+    require(key);
+    return number(key, 0.0, range);
+  }
+
+  [[nodiscard]] std::int64_t integer(std::string_view key, std::int64_t fallback, std::int64_t low,
+                                     std::int64_t high) {
+    const toml::node* const node = find(key);
+    if (node == nullptr) return fallback;
+    if (!node->is_integer() || node->ref<std::int64_t>() < low || node->ref<std::int64_t>() > high) {
+      fail(*node, fmt::format("{} must be a whole number from {} to {}", key, low, high));
+    }
+    return node->ref<std::int64_t>();
+  }
+
+  [[nodiscard]] TableReader table(std::string_view key) {
+    require(key);
+    const toml::node* const node = find(key);
+    if (!node->is_table()) fail(*node, fmt::format("{} must be a table", key));
+    return {*node->as_table(), file_};
+  }
+
+  [[nodiscard]] std::vector<TableReader> tables(std::string_view key) {
+    require(key);
+    const toml::node* const node = find(key);
+    if (!node->is_array_of_tables()) fail(*node, fmt::format("write {0} as [[{0}]] tables", key));
+    std::vector<TableReader> readers;
+    for (const toml::node& entry : *node->as_array()) readers.emplace_back(*entry.as_table(), file_);
+    return readers;
+  }
+
+  void refuse_unknown_keys() const {
+    for (const auto& [key, node] : table_) {
+      if (!known_.contains(std::string(key.str()))) {
+        fail(key.source(),
+             fmt::format("unknown key '{}'; known here: {}", key.str(), fmt::join(known_, ", ")));
+      }
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& message) const { fail(table_.source(), message); }
+
+ private:
+  [[nodiscard]] const toml::node* find(std::string_view key) {
+    known_.emplace(key);
+    return table_.get(key);
+  }
+  void require(std::string_view key) const {
+    if (!has(key)) fail(fmt::format("'{}' is missing here", key));
+  }
+  [[noreturn]] void fail(const toml::node& node, const std::string& message) const {
+    fail(node.source(), message);
+  }
+  [[noreturn]] void fail(const toml::source_region& where, const std::string& message) const {
+    throw std::runtime_error(
+        fmt::format("{}:{}:{}: {}", file_, where.begin.line, where.begin.column, message));
+  }
+
+  const toml::table& table_;
+  std::string file_;
+  std::set<std::string> known_;
+};
+
+RoadProfile read_road(TableReader reader) {
+  RoadProfile road;
+  road.lanes = reader.integer("lanes", road.lanes, 1, 8);
+  road.lane_width_m = reader.number("lane_width_m", road.lane_width_m, {2.0, 6.0});
+  road.parking_width_m = reader.number("parking_width_m", road.parking_width_m, {0.0, 4.0});
+  road.pavement_width_m = reader.number("pavement_width_m", road.pavement_width_m, {0.5, 8.0});
+  reader.refuse_unknown_keys();
+  if (road.lanes > 1 && road.lanes % 2 != 0) reader.fail("lanes must be 1 or even");
+  return road;
+}
+
+Scenery read_scenery(TableReader reader) {
+  Scenery scenery;
+  const auto density = [&reader](std::string_view key, double& value, double most) {
+    value = reader.number(key, value, {0.0, most});
+  };
+  density("buildings_per_100m", scenery.buildings, 40.0);
+  density("trees_per_100m", scenery.trees, 100.0);
+  density("poles_per_100m", scenery.poles, 100.0);
+  density("signs_per_100m", scenery.signs, 100.0);
+  density("boundaries_per_100m", scenery.boundaries, 40.0);
+  density("side_streets_per_100m", scenery.side_streets, 4.0);
+  density("parked_cars_per_100m", scenery.parked_cars, 40.0);
+  density("moving_cars_per_100m", scenery.moving_cars, 10.0);
+  scenery.building_setback_m = reader.number("building_setback_m", scenery.building_setback_m, {0.0, 30.0});
+  scenery.building_height_m = reader.number("building_height_m", scenery.building_height_m, {3.0, 40.0});
+  reader.refuse_unknown_keys();
+  return scenery;
+}
+
+RouteSegment read_segment(TableReader reader, double sharpest_1pm) {
+  RouteSegment segment;
+  segment.length_m = reader.number("length_m", {1.0, kLongestRoute_m});
+  if (reader.has("turn_deg") && reader.has("curvature_1pm")) {
+    reader.fail("give turn_deg or curvature_1pm, not both");
+  }
+  const double turn_deg = reader.number("turn_deg", 0.0, {-360.0, 360.0});
+  segment.curvature_1pm = reader.number("curvature_1pm", 0.0, {-1.0, 1.0});
+  if (turn_deg != 0.0) segment.curvature_1pm = turn_deg * std::numbers::pi / 180.0 / segment.length_m;
+  segment.grade = reader.number("grade", 0.0, {-0.25, 0.25});
+  segment.speed_mps = reader.number("speed_kmh", {3.0, 130.0}) / 3.6;
+  reader.refuse_unknown_keys();
+  if (std::abs(segment.curvature_1pm) > sharpest_1pm) {
+    reader.fail(fmt::format("this turn has a radius of {:.1f} m, the road with its verges needs {:.1f} m",
+                            1.0 / std::abs(segment.curvature_1pm), 1.0 / sharpest_1pm));
+  }
+  return segment;
+}
+
+/// Where the inner verge of a curve would fold onto itself.
+double sharpest_curvature_1pm(const RoadProfile& road) {
+  constexpr double kVergeAndMargin_m = 8.0;
+  return 1.0 /
+         (road.half_width_m() + road.pavement_width_m + std::abs(road.centre_offset_m()) + kVergeAndMargin_m);
+}
+
+}  // namespace
+
+double Route::length_m() const noexcept {
+  return std::accumulate(segments.begin(), segments.end(), 0.0,
+                         [](double sum, const RouteSegment& segment) { return sum + segment.length_m; });
+}
+
+Route parse_route(std::string_view text, const std::string& file) {
+  toml::table table;
+  try {
+    table = toml::parse(text, file);
+  } catch (const toml::parse_error& error) {
+    const toml::source_position where = error.source().begin;
+    throw std::runtime_error(
+        fmt::format("{}:{}:{}: {}", file, where.line, where.column, error.description()));
+  }
+  TableReader reader(table, file);
+  Route route;
+  route.name = file;
+  route.seed = static_cast<std::uint64_t>(reader.integer("seed", 1, 0, std::int64_t{1} << 53));
+  route.heading_deg = reader.number("heading_deg", 0.0, {-360.0, 360.0});
+  route.road = read_road(reader.table("road"));
+  route.scenery = read_scenery(reader.table("scenery"));
+  for (TableReader& segment : reader.tables("segment")) {
+    route.segments.push_back(read_segment(std::move(segment), sharpest_curvature_1pm(route.road)));
+  }
+  reader.refuse_unknown_keys();
+  if (route.length_m() < kShortestDrive_m || route.length_m() > kLongestRoute_m) {
+    reader.fail(fmt::format("the segments add up to {} m; a route has {} m to {} m", route.length_m(),
+                            kShortestDrive_m, kLongestRoute_m));
+  }
+  return route;
+}
+
+std::vector<std::string> route_names() {
+  std::vector<std::string> names;
+  for (const EmbeddedRoute& route : kEmbeddedRoutes) names.emplace_back(route.name);
+  return names;
+}
+
+Route load_route(const std::string& name_or_file) {
+  for (const EmbeddedRoute& route : kEmbeddedRoutes) {
+    if (route.name == name_or_file) return parse_route(route.toml, name_or_file);
+  }
+  if (!std::filesystem::is_regular_file(name_or_file)) {
+    throw std::invalid_argument(fmt::format("there is no route '{}': give a TOML file or one of {}",
+                                            name_or_file, fmt::join(route_names(), ", ")));
+  }
+  const std::vector<std::byte> bytes = platform::read_file(name_or_file);
+  return parse_route({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name_or_file);
+}
+
+Route shortened(Route route, double length_m) {
+  if (!(length_m >= kShortestDrive_m && length_m <= route.length_m())) {
+    throw std::invalid_argument(fmt::format("route {} can be driven for {} m to {} m, not for {} m",
+                                            route.name, kShortestDrive_m, route.length_m(), length_m));
+  }
+  double left_m = length_m;
+  std::vector<RouteSegment> kept;
+  for (RouteSegment segment : route.segments) {
+    segment.length_m = std::min(segment.length_m, left_m);
+    left_m -= segment.length_m;
+    if (segment.length_m > 0.0) kept.push_back(segment);
+  }
+  route.segments = std::move(kept);
+  return route;
+}
+
+}  // namespace landfix::tools::simulator

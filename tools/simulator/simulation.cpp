@@ -1,0 +1,159 @@
+#include "tools/simulator/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "platform/atomic_file.hpp"
+#include "platform/pcap_writer.hpp"
+#include "platform/pcd_writer.hpp"
+#include "platform/trajectory.hpp"
+#include "tools/simulator/random.hpp"
+#include "tools/simulator/survey.hpp"
+
+namespace landfix::tools::simulator {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::uint32_t kSensorAddress = 0xC0A801C9;  // 192.168.1.201, the maker's default
+constexpr double kLeaf_m = 2.0;
+constexpr double kResolution_m = 1.0;
+
+platform::UdpFlow flow_from_sensor(std::uint16_t port) {
+  return {.source_address = kSensorAddress, .source_port = port, .destination_port = port};
+}
+
+/// From the last firing to the receiver's stamp: the sensor's own delay, and a network that is never quite
+/// even.
+std::int64_t latency_ns(std::uint64_t seed, std::uint64_t packet) {
+  const double jitter = to_unit(random_bits(seed, RandomStream::network, packet));
+  return 280'000 + static_cast<std::int64_t>(40'000.0 * jitter);
+}
+
+/// Around an invented survey point; the map's x axis points east.
+GpsFix gps_fix(const VehicleMotion& vehicle, std::int64_t utc_ns) {
+  constexpr double kLatitude_deg = 48.1173;
+  constexpr double kLongitude_deg = 11.5167;
+  constexpr double kDegree_m = 111'320.0;
+  const double time_s = 1e-9 * static_cast<double>(utc_ns - kDriveStart_utc_ns);
+  const ndt::Pose pose = vehicle.pose_at(time_s);
+  const double yaw_deg = ndt::to_roll_pitch_yaw(pose.linear()).yaw_rad * 180.0 / std::numbers::pi;
+  const double shrink = std::cos(kLatitude_deg * std::numbers::pi / 180.0);
+  return {.utc_ns = utc_ns,
+          .latitude_deg = kLatitude_deg + pose.translation().y() / kDegree_m,
+          .longitude_deg = kLongitude_deg + pose.translation().x() / (kDegree_m * shrink),
+          .speed_mps = vehicle.speed_at(time_s),
+          .course_deg = std::fmod(450.0 - yaw_deg, 360.0)};
+}
+
+/// Packets `first` to `first + payloads.size()`, shared out between the processors.
+std::size_t fire_batch(const Drive& drive, std::size_t first, std::span<DataPayload> payloads) {
+  const std::size_t workers = std::max(1U, std::thread::hardware_concurrency());
+  std::vector<std::size_t> returns(workers, 0);
+  const auto work = [&](std::size_t worker) {
+    for (std::size_t i = worker; i < payloads.size(); i += workers) {
+      const Vlp16Firings firings = drive.fire(first + i);
+      payloads[i] = encode_data(firings);
+      returns[worker] += static_cast<std::size_t>(std::ranges::count_if(
+          firings.returns, [](const Vlp16Return& one) { return one.distance_raw != 0; }));
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t worker = 1; worker < workers; ++worker) threads.emplace_back(work, worker);
+    work(0);
+  }
+  std::size_t sum = 0;
+  for (const std::size_t count : returns) sum += count;
+  return sum;
+}
+
+void write_capture(const Drive& drive, const std::filesystem::path& path, const Progress& progress,
+                   SimulationSummary& summary) {
+  constexpr std::size_t kBatch = 512;
+  constexpr std::int64_t kFixDelay_ns = 120'000'000;  // from the pulse to the end of the receiver's sentence
+  const platform::UdpFlow data = flow_from_sensor(kDataPort);
+  const platform::UdpFlow position = flow_from_sensor(kPositionPort);
+  platform::PcapWriter capture(path);
+  std::int64_t fix_utc_ns = (kDriveStart_utc_ns / kSecond_ns + 1) * kSecond_ns;
+  std::vector<DataPayload> payloads(kBatch);
+  for (std::size_t first = 0; first < drive.packets(); first += kBatch) {
+    const std::size_t count = std::min(kBatch, drive.packets() - first);
+    summary.returns += fire_batch(drive, first, std::span(payloads).first(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto packet = static_cast<std::int64_t>(first + i);
+      const std::int64_t last_firing_utc_ns = kDriveStart_utc_ns + packet * vlp16::kPacket_ns +
+                                              vlp16::firing_time_ns(vlp16::kFiringsPerPacket - 1);
+      const std::int64_t receive_utc_ns = last_firing_utc_ns + latency_ns(drive.seed(), first + i);
+      if (fix_utc_ns + kFixDelay_ns < receive_utc_ns) {
+        capture.write(position, encode_position(gps_fix(drive.vehicle(), fix_utc_ns)),
+                      fix_utc_ns + kFixDelay_ns);
+        fix_utc_ns += kSecond_ns;
+        ++summary.position_packets;
+      }
+      capture.write(data, payloads[i], receive_utc_ns);
+    }
+    summary.data_packets += count;
+    progress(static_cast<double>(first + count) / static_cast<double>(drive.packets()));
+  }
+  capture.commit();
+}
+
+void write_truth(const Drive& drive, const std::filesystem::path& path) {
+  constexpr std::int64_t kPeriod_ns = 10'000'000;
+  constexpr std::int64_t kMargin_ns = 100'000'000;
+  const auto duration_ns = static_cast<std::int64_t>(drive.vehicle().duration_s() * 1e9);
+  std::vector<platform::StampedPose> truth;
+  std::int64_t stamp_utc_ns = (kDriveStart_utc_ns - kMargin_ns) / kPeriod_ns * kPeriod_ns;
+  for (; stamp_utc_ns < kDriveStart_utc_ns + duration_ns + kMargin_ns; stamp_utc_ns += kPeriod_ns) {
+    const double time_s = 1e-9 * static_cast<double>(stamp_utc_ns - kDriveStart_utc_ns);
+    truth.push_back({stamp_utc_ns, drive.vehicle().pose_at(time_s)});
+  }
+  platform::write_tum(path, truth);
+}
+
+void write_config(const Drive& drive, const std::filesystem::path& path) {
+  const SensorMounting& mounting = kSensorMounting;
+  const ndt::Pose start = drive.vehicle().pose_at(0.0);
+  const ndt::RollPitchYaw angles = ndt::to_roll_pitch_yaw(start.linear());
+  platform::AtomicFile file(path);
+  file.write(fmt::format(
+      "# The simulated drive of route {}, seed {}. Build map.ndt from map.pcd with `landfix map`.\n"
+      "[sensor]\nmodel = \"vlp16\"\nport = {}\n\n"
+      "[vehicle]\nsensor_pose = [{:.3f}, {:.3f}, {:.3f}, {:.3f}, {:.3f}, {:.3f}]\n\n"
+      "[map]\nfile = \"map.ndt\"\n\n"
+      "# Where the vehicle stands when the capture begins.\n"
+      "[initial_pose]\npose = [{:.3f}, {:.3f}, {:.3f}, {:.3f}, {:.3f}, {:.3f}]\n\n"
+      "[filter]\nleaf_m = {:.1f}\n\n[matcher]\nresolution_m = {:.1f}\nmax_iterations = 50\n",
+      drive.route().name, drive.seed(), kDataPort, mounting.position_m.x(), mounting.position_m.y(),
+      mounting.position_m.z(), mounting.roll_deg, mounting.pitch_deg, mounting.yaw_deg,
+      start.translation().x(), start.translation().y(), start.translation().z(),
+      angles.roll_rad / ndt::kRadians_per_deg, angles.pitch_rad / ndt::kRadians_per_deg,
+      angles.yaw_rad / ndt::kRadians_per_deg, kLeaf_m, kResolution_m));
+  file.commit();
+}
+
+}  // namespace
+
+SimulationSummary write_drive(const Drive& drive, const std::filesystem::path& folder,
+                              const Progress& progress) {
+  std::filesystem::create_directories(folder);
+  SimulationSummary summary{.length_m = drive.route().length_m(), .duration_s = drive.vehicle().duration_s()};
+  write_capture(drive, folder / "capture.pcap", progress, summary);
+  write_truth(drive, folder / "truth.tum");
+  const std::vector<Eigen::Vector3f> map = survey(drive.world().surveyed, drive.ground(), drive.seed());
+  summary.map_points = map.size();
+  platform::write_pcd_records(folder / "map.pcd", platform::kPositionMembers, std::as_bytes(std::span(map)),
+                              sizeof(Eigen::Vector3f));
+  write_config(drive, folder / "config.toml");
+  return summary;
+}
+
+}  // namespace landfix::tools::simulator

@@ -1,0 +1,58 @@
+#include "tools/simulator/survey.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tools/simulator/random.hpp"
+
+namespace landfix::tools::simulator {
+namespace {
+
+constexpr double kReach_m = 60.0;
+
+/// The side of the square that a point stands for.
+double spacing_m(double distance_to_road_m) {
+  constexpr double kNear_m = 10.0;
+  constexpr double kFinest_m = 0.10;
+  constexpr double kCoarsening = 0.012;  // metres of spacing for each metre away
+  return kFinest_m + kCoarsening * std::max(0.0, distance_to_road_m - kNear_m);
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3f> survey(const Mesh& mesh, const Ground& ground, std::uint64_t seed) {
+  constexpr double kBelowGround_m = 0.05;
+  Random random(seed, RandomStream::survey);
+  std::vector<Eigen::Vector3f> points_m;
+  for (const auto& triangle : mesh.triangles) {
+    const Eigen::Vector3d a = mesh.vertices_m[triangle[0]].cast<double>();
+    const Eigen::Vector3d ab = mesh.vertices_m[triangle[1]].cast<double>() - a;
+    const Eigen::Vector3d ac = mesh.vertices_m[triangle[2]].cast<double>() - a;
+    const Eigen::Vector3d centre_m = a + (ab + ac) / 3.0;
+    const RoadPosition place = ground.project(centre_m.head<2>());
+    const double distance_m = std::abs(place.offset_m - ground.road().centre_offset_m());
+    if (distance_m > kReach_m || place.station_m < -kReach_m ||
+        place.station_m > ground.path().length_m() + kReach_m) {
+      continue;
+    }
+    const double area_m2 = 0.5 * ab.cross(ac).norm();
+    const double expected = area_m2 / (spacing_m(distance_m) * spacing_m(distance_m));
+    const auto count = static_cast<int>(expected + random.uniform(0.0, 1.0));
+    for (int i = 0; i < count; ++i) {
+      double u = random.uniform(0.0, 1.0);
+      double v = random.uniform(0.0, 1.0);
+      if (u + v > 1.0) {  // the other half of the parallelogram, folded over
+        u = 1.0 - u;
+        v = 1.0 - v;
+      }
+      const Eigen::Vector3d point_m = a + u * ab + v * ac;
+      if (point_m.z() < ground.height_m(Eigen::Vector2d(point_m.head<2>())) - kBelowGround_m) continue;
+      const Eigen::Vector3d noise{random.normal(), random.normal(), random.normal()};
+      points_m.emplace_back((point_m + kSurveyNoise_m * noise).cast<float>());
+    }
+  }
+  return points_m;
+}
+
+}  // namespace landfix::tools::simulator

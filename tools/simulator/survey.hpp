@@ -1,0 +1,21 @@
+// A surveyor's point cloud of the standing world: sampled from its surfaces, not seen by the LiDAR.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "tools/simulator/ground.hpp"
+#include "tools/simulator/mesh.hpp"
+
+namespace landfix::tools::simulator {
+
+/// Standard deviation of a surveyed point.
+inline constexpr double kSurveyNoise_m = 0.01;
+
+/// Uniform by area, denser near the road, up to the LiDAR's useful reach from it; nothing below the ground.
+/// Frame `map`.
+[[nodiscard]] std::vector<Eigen::Vector3f> survey(const Mesh& mesh, const Ground& ground, std::uint64_t seed);
+
+}  // namespace landfix::tools::simulator
