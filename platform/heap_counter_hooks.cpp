@@ -1,7 +1,7 @@
 // The library landfix_heap_counter: the functions of the heap, which count and hand on to those of glibc.
+// Not <cstdlib>: clang-tidy would hold its reserved parameter names against ours.
 #include <cerrno>
 #include <cstddef>
-#include <cstdlib>
 
 #include "platform/heap_counter.hpp"
 
