@@ -10,4 +10,9 @@ bool AnyDecoder::flush(SweepPair& sweeps) noexcept {
   return std::visit([&](auto& decoder) noexcept { return decoder.flush(sweeps); }, decoder_);
 }
 
+const StreamCounters& AnyDecoder::counters() const noexcept {
+  return std::visit([](const auto& decoder) noexcept -> const StreamCounters& { return decoder.counters(); },
+                    decoder_);
+}
+
 }  // namespace landfix::drivers

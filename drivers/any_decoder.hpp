@@ -18,6 +18,7 @@ class AnyDecoder {
 
   [[nodiscard]] DecodeResult decode(const Packet& packet, SweepPair& sweeps) noexcept;
   [[nodiscard]] bool flush(SweepPair& sweeps) noexcept;
+  [[nodiscard]] const StreamCounters& counters() const noexcept;
 
  private:
   Alternatives decoder_;

@@ -6,6 +6,8 @@ std::string_view to_string(DecodeStatus status) noexcept {
   switch (status) {
     case DecodeStatus::decoded:
       return "decoded";
+    case DecodeStatus::telemetry:
+      return "position, status or calibration";
     case DecodeStatus::wrong_size:
       return "payload size is not the model's";
     case DecodeStatus::wrong_header:
@@ -17,7 +19,15 @@ std::string_view to_string(DecodeStatus status) noexcept {
     case DecodeStatus::wrong_azimuth:
       return "azimuth is not within one turn";
     case DecodeStatus::wrong_time:
-      return "not a date or a time";
+      return "not a date or a time, or far from that of its neighbours";
+    case DecodeStatus::wrong_checksum:
+      return "checksum does not fit: damaged on the way";
+    case DecodeStatus::uncalibrated:
+      return "the unit's calibration has not come yet";
+    case DecodeStatus::duplicate:
+      return "has come before";
+    case DecodeStatus::late:
+      return "its sweep has been handed over already";
   }
   return "unknown status";
 }

@@ -17,8 +17,9 @@ void check(const DecoderOptions& options) {
 
 /// Exactly N beams of the table or of the unit.
 template <std::size_t N>
-std::span<const Beam, N> beams_of(const SensorModel& model, std::span<const Beam> calibration) {
-  const auto beams = calibration.empty() ? model.beams : calibration;
+std::span<const Beam, N> beams_of(const SensorModel& model, const Calibration& calibration) {
+  const auto* const unit = std::get_if<std::vector<Beam>>(&calibration);
+  const auto beams = unit != nullptr ? std::span<const Beam>(*unit) : model.beams;
   if (beams.size() != N) {
     throw std::runtime_error(std::string(model.name) + " has " + std::to_string(N) +
                              " beams, its calibration " + std::to_string(beams.size()) +
@@ -30,7 +31,7 @@ std::span<const Beam, N> beams_of(const SensorModel& model, std::span<const Beam
 }  // namespace
 
 AnyDecoder make_decoder(const SensorModel& model, const DecoderOptions& options,
-                        std::span<const Beam> calibration) {
+                        const Calibration& calibration) {
   check(options);
   switch (model.format) {
     case PacketFormat::velodyne_vlp16:

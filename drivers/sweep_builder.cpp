@@ -26,8 +26,8 @@ bool SweepBuilder::follows_a_loss(const PacketTiming& packet) noexcept {
   return !known;
 }
 
-void SweepBuilder::begin_packet(const PacketTiming& packet, std::uint16_t first_azimuth_centideg,
-                                SweepPair& sweeps) noexcept {
+DecodeStatus SweepBuilder::begin_packet(const PacketTiming& packet, std::uint16_t first_azimuth_centideg,
+                                        SweepPair& sweeps) noexcept {
   has_cut_ = false;
   const bool jumped = clock_.advance(packet.first_firing_ns, packet.receive_utc_ns);
   lost_ = follows_a_loss(packet) || jumped;
@@ -44,6 +44,7 @@ void SweepBuilder::begin_packet(const PacketTiming& packet, std::uint16_t first_
   last_packet_ns_ = packet.first_firing_ns;
   last_sequence_ = packet.sequence;
   last_azimuth_centideg_ = first_azimuth_centideg;
+  return DecodeStatus::decoded;
 }
 
 float SweepBuilder::begin_block(std::uint16_t azimuth_centideg, std::int64_t first_firing_ns,

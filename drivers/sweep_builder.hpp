@@ -5,7 +5,9 @@
 #include <optional>
 #include <span>
 
+#include "drivers/decoder.hpp"
 #include "drivers/sensor_clock.hpp"
+#include "drivers/stream_counters.hpp"
 #include "drivers/sweep.hpp"
 #include "drivers/sweep_cutter.hpp"
 
@@ -26,15 +28,17 @@ class SweepBuilder {
   explicit SweepBuilder(double cut_deg) noexcept : cutter_(cut_deg) {}
 
   [[nodiscard]] const SensorClock& clock() const noexcept { return clock_; }
+  [[nodiscard]] const StreamCounters& counters() const noexcept { return counters_; }
   /// See SweepCutter::would_cut_twice: to be asked before the packet is begun.
   [[nodiscard]] bool would_cut_twice(std::span<const std::uint16_t> azimuths_centideg) const noexcept {
     return cutter_.would_cut_twice(azimuths_centideg);
   }
 
-  /// Begins a packet that has been found valid. `first_azimuth_centideg` is its first block's. Cuts where the
-  /// turn has lasted too long (1.5 nominal turns) or a clock has jumped.
-  void begin_packet(const PacketTiming& packet, std::uint16_t first_azimuth_centideg,
-                    SweepPair& sweeps) noexcept;
+  /// Begins a packet that has been found sound. `first_azimuth_centideg` is its first block's. Cuts where the
+  /// turn has lasted too long (1.5 nominal turns) or a clock has jumped. Anything but `decoded`: the packet
+  /// has come before, too late or from another time; nothing of it may be used.
+  [[nodiscard]] DecodeStatus begin_packet(const PacketTiming& packet, std::uint16_t first_azimuth_centideg,
+                                          SweepPair& sweeps) noexcept;
 
   /// Begins a block, cutting before it if its azimuth says so. Returns the time of its earliest firing since
   /// the start of the sweep [s], >= 0.
@@ -52,6 +56,7 @@ class SweepBuilder {
   void close(SweepPair& sweeps) noexcept;
 
   SensorClock clock_;
+  StreamCounters counters_;
   SweepCutter cutter_;
   std::int64_t sweep_start_ns_ = 0;
   std::int64_t last_packet_ns_ = 0;

@@ -14,11 +14,17 @@ std::string_view to_string(Stage stage) noexcept {
 }
 
 std::uint64_t PipelineCounters::rejected() const noexcept {
-  return packets - by_status[static_cast<std::size_t>(drivers::DecodeStatus::decoded)];
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < by_status.size(); ++i) {
+    if (drivers::is_rejected(static_cast<drivers::DecodeStatus>(i))) sum += by_status[i];
+  }
+  return sum;
 }
 
 std::optional<SweepResult> Pipeline::process(const UdpPacket& packet) noexcept {
-  if (packet.destination_port != settings_.port) {
+  const bool is_telemetry =
+      settings_.telemetry_port != 0 && packet.destination_port == settings_.telemetry_port;
+  if (packet.destination_port != settings_.port && !is_telemetry) {
     ++counters_.other_ports;
     return std::nullopt;
   }

@@ -28,6 +28,7 @@ inline constexpr std::size_t kStageCount = 4;
 
 struct PipelineSettings {
   std::uint16_t port = 0;                         ///< of the sensor's data packets; others are counted
+  std::uint16_t telemetry_port = 0;               ///< of its other packets; 0: none
   std::uint32_t sensor_address = 0;               ///< IPv4, host byte order; 0: whoever sends
   std::size_t points_per_sweep = 0;               ///< room for a sweep
   ndt::Pose sensor_pose = ndt::Pose::Identity();  ///< vehicle <- sensor
@@ -48,7 +49,7 @@ struct SweepResult {
 };
 
 struct PipelineCounters {
-  std::uint64_t packets = 0;        ///< decoded or rejected
+  std::uint64_t packets = 0;        ///< decoded, rejected or telemetry
   std::uint64_t other_ports = 0;    ///< not decoded
   std::uint64_t other_senders = 0;  ///< to the sensor's port, not from its address: not decoded
   std::array<std::uint64_t, drivers::kDecodeStatusCount> by_status{};
@@ -73,6 +74,9 @@ class Pipeline {
   [[nodiscard]] std::optional<SweepResult> finish() noexcept;
 
   [[nodiscard]] const PipelineCounters& counters() const noexcept { return counters_; }
+  [[nodiscard]] const drivers::StreamCounters& stream_counters() const noexcept {
+    return decoder_.counters();
+  }
   [[nodiscard]] const LatencyHistogram& durations(Stage stage) const noexcept {
     return durations_[static_cast<std::size_t>(stage)];
   }

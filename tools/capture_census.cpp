@@ -16,23 +16,23 @@ CaptureCensus::CaptureCensus(platform::PacketSource& source) {
   while (source.next(packet) == platform::ReadStatus::packet) {
     ++counts_[{packet.destination_port, packet.payload.size()}];
     for (const drivers::SensorModel& model : drivers::sensor_models()) {
-      if (!drivers::looks_like(model, packet.payload)) continue;
-      if (std::ranges::find(candidates_, &model) == candidates_.end()) candidates_.push_back(&model);
+      if (!drivers::has_size_of(model, packet.payload)) continue;
+      ++sized_[&model][packet.destination_port];
+      if (drivers::looks_like(model, packet.payload)) ++recognised_[&model][packet.destination_port];
     }
   }
+  for (const auto& [model, ports] : recognised_) candidates_.push_back(model);
 }
 
 std::uint16_t CaptureCensus::port_of(const drivers::SensorModel& model) const {
-  std::map<std::uint16_t, std::uint64_t> by_port;
-  for (const auto& [key, count] : counts_) {
-    const auto& [port, size] = key;
-    if (size != 0 && std::ranges::find(model.payload_sizes, size) != model.payload_sizes.end()) {
-      by_port[port] += count;
-    }
+  for (const auto* const counts : {&recognised_, &sized_}) {
+    const auto by_port = counts->find(&model);
+    if (by_port == counts->end()) continue;
+    if (by_port->second.contains(model.data_port)) return model.data_port;
+    return std::ranges::max_element(by_port->second, {}, [](const auto& entry) { return entry.second; })
+        ->first;
   }
-  if (by_port.empty()) return 0;
-  if (by_port.contains(model.data_port)) return model.data_port;
-  return std::ranges::max_element(by_port, {}, [](const auto& entry) { return entry.second; })->first;
+  return 0;
 }
 
 std::string CaptureCensus::to_string() const {

@@ -17,10 +17,11 @@ class CaptureCensus {
   /// Reads the source to its end.
   explicit CaptureCensus(platform::PacketSource& source);
 
-  /// Models that packets were recognised of, by size, header and product id.
+  /// Models that packets were recognised of, in the order of the catalogue.
   [[nodiscard]] const std::vector<const drivers::SensorModel*>& candidates() const { return candidates_; }
 
-  /// Port to which most packets of the model's size were sent; its usual port first. 0 if there are none.
+  /// Port to which the model's data packets were sent: those that name it, or, where none does, those of its
+  /// size; its usual port first, then the one with most. 0 if there are none.
   [[nodiscard]] std::uint16_t port_of(const drivers::SensorModel& model) const;
 
   /// "603 UDP packets of 1206 bytes to port 2368, ...", or "no UDP packet".
@@ -28,7 +29,10 @@ class CaptureCensus {
 
  private:
   using PortAndSize = std::pair<std::uint16_t, std::size_t>;
+  using CountByPort = std::map<std::uint16_t, std::uint64_t>;
   std::map<PortAndSize, std::uint64_t> counts_;
+  std::map<const drivers::SensorModel*, CountByPort> recognised_;
+  std::map<const drivers::SensorModel*, CountByPort> sized_;
   std::vector<const drivers::SensorModel*> candidates_;
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "drivers/make_decoder.hpp"
@@ -52,12 +53,18 @@ struct SweepSummary {
 struct Summary {
   std::array<std::uint64_t, drivers::kDecodeStatusCount> packets{};  ///< by DecodeStatus
   std::uint64_t elsewhere = 0;                                       ///< packets to other ports
+  drivers::StreamCounters stream;
   std::vector<SweepSummary> sweeps;
 
-  [[nodiscard]] std::uint64_t decoded() const { return packets[0]; }
+  [[nodiscard]] std::uint64_t of(DecodeStatus status) const {
+    return packets[static_cast<std::size_t>(status)];
+  }
+  [[nodiscard]] std::uint64_t decoded() const { return of(DecodeStatus::decoded); }
   [[nodiscard]] std::uint64_t rejected() const {
     std::uint64_t sum = 0;
-    for (std::size_t i = 1; i < packets.size(); ++i) sum += packets[i];
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+      if (drivers::is_rejected(static_cast<DecodeStatus>(i))) sum += packets[i];
+    }
     return sum;
   }
 };
@@ -93,7 +100,8 @@ std::uint16_t port_of(const SensorModel& model, const Arguments& arguments, cons
   const std::string hint =
       census.candidates().empty() ? "" : fmt::format("; it could be {}", names_of(census.candidates()));
   throw std::runtime_error(fmt::format("{}: no packet of {} ({} bytes): it holds {}{}", arguments.pcap,
-                                       model.name, model.payload_sizes[0], census.to_string(), hint));
+                                       model.name, fmt::join(model.payload_sizes, ", "), census.to_string(),
+                                       hint));
 }
 
 void write_csv(const std::filesystem::path& path, std::span<const drivers::Point> points) {
@@ -134,13 +142,14 @@ class SweepWriter {
   Format format_;
 };
 
-Summary decode_all(platform::PcapSource& source, std::uint16_t port, drivers::AnyDecoder& decoder,
-                   drivers::SweepPair& sweeps, const SweepWriter& writer) {
+Summary decode_all(platform::PcapSource& source, std::uint16_t port, std::uint16_t telemetry_port,
+                   drivers::AnyDecoder& decoder, drivers::SweepPair& sweeps, const SweepWriter& writer) {
   Summary summary;
   platform::UdpPacket packet;
   auto status = platform::ReadStatus::end;
   while ((status = source.next(packet)) == platform::ReadStatus::packet) {
-    if (packet.destination_port != port) {
+    if (packet.destination_port != port &&
+        (telemetry_port == 0 || packet.destination_port != telemetry_port)) {
       ++summary.elsewhere;
       continue;
     }
@@ -153,6 +162,7 @@ Summary decode_all(platform::PcapSource& source, std::uint16_t port, drivers::An
   }
   if (decoder.flush(sweeps)) writer.write(sweeps.completed(), summary.sweeps);
   show_progress("");
+  summary.stream = decoder.counters();
   if (status == platform::ReadStatus::truncated) {
     fmt::print(stderr, "the capture ends in the middle of a record ({}): what follows is missing\n",
                source.read_error());
@@ -172,8 +182,8 @@ void print_json(const SensorModel& model, const Summary& summary) {
                       {"last_time", sweep.last_time_s}});
   }
   nlohmann::json reasons = nlohmann::json::object();
-  for (std::size_t i = 1; i < summary.packets.size(); ++i) {
-    if (summary.packets[i] == 0) continue;
+  for (std::size_t i = 0; i < summary.packets.size(); ++i) {
+    if (summary.packets[i] == 0 || !drivers::is_rejected(static_cast<DecodeStatus>(i))) continue;
     reasons[std::string(drivers::to_string(static_cast<DecodeStatus>(i)))] = summary.packets[i];
   }
   const nlohmann::json object{{"sensor", model.name},
@@ -182,18 +192,25 @@ void print_json(const SensorModel& model, const Summary& summary) {
                                 {"decoded", summary.decoded()},
                                 {"rejected", summary.rejected()},
                                 {"reasons", reasons},
+                                {"telemetry", summary.of(DecodeStatus::telemetry)},
+                                {"lost", summary.stream.lost_packets},
                                 {"other_ports", summary.elsewhere}}},
+                              {"clock_steps", summary.stream.clock_steps},
+                              {"restarts", summary.stream.restarts},
                               {"sweeps", sweeps}};
   fmt::print("{}\n", object.dump(2));
 }
 
 void print_text(const SensorModel& model, const Summary& summary, const std::string& folder) {
-  fmt::print("{}: {} packets decoded, {} rejected, {} to other ports\n", model.display_name,
-             summary.decoded(), summary.rejected(), summary.elsewhere);
-  for (std::size_t i = 1; i < summary.packets.size(); ++i) {
-    if (summary.packets[i] == 0) continue;
+  fmt::print("{}: {} packets decoded, {} rejected, {} lost, {} of telemetry, {} to other ports\n",
+             model.display_name, summary.decoded(), summary.rejected(), summary.stream.lost_packets,
+             summary.of(DecodeStatus::telemetry), summary.elsewhere);
+  for (std::size_t i = 0; i < summary.packets.size(); ++i) {
+    if (summary.packets[i] == 0 || !drivers::is_rejected(static_cast<DecodeStatus>(i))) continue;
     fmt::print("  rejected {}: {}\n", summary.packets[i], drivers::to_string(static_cast<DecodeStatus>(i)));
   }
+  if (summary.stream.clock_steps != 0) fmt::print("  {} steps of a clock\n", summary.stream.clock_steps);
+  if (summary.stream.restarts != 0) fmt::print("  {} restarts of the sensor\n", summary.stream.restarts);
   std::size_t complete = 0;
   for (std::size_t i = 0; i < summary.sweeps.size(); ++i) {
     const SweepSummary& sweep = summary.sweeps[i];
@@ -213,15 +230,14 @@ void decode(const Arguments& arguments) {
   const SensorModel& model = choose_sensor(arguments, census);
   const std::uint16_t port = port_of(model, arguments, census);
   const auto calibration = load_calibration(model, arguments.calibration);
-  if (calibration.empty() && model.format == drivers::PacketFormat::hesai_pandar64) {
-    fmt::print(stderr,
-               "no --calibration: the elevations are the model's, a unit's own differ by up to 0.2 deg\n");
+  if (arguments.calibration.empty() && model.calibration == drivers::CalibrationUse::optional) {
+    fmt::print(stderr, "no --calibration: the angles are the model's, a unit's own differ a little\n");
   }
   drivers::AnyDecoder decoder = drivers::make_decoder(model, arguments.options, calibration);
   std::vector<drivers::Point> storage(2 * model.max_points_per_sweep());
   drivers::SweepPair sweeps(storage);
   const SweepWriter writer(arguments.output, arguments.format);
-  const Summary summary = decode_all(source, port, decoder, sweeps, writer);
+  const Summary summary = decode_all(source, port, model.telemetry_port, decoder, sweeps, writer);
   arguments.json ? print_json(model, summary) : print_text(model, summary, arguments.output);
 }
 
@@ -233,7 +249,7 @@ void add_decode_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("decode", "point clouds from a capture, one file a sweep");
   command.add_option("--sensor", arguments->sensor, "its name (landfix sensors); found out where not given")
       ->type_name("NAME");
-  command.add_option("--calibration", arguments->calibration, "the unit's own angles (Hesai)")
+  command.add_option("--calibration", arguments->calibration, "the unit's own file (see landfix sensors)")
       ->type_name("FILE");
   command.add_option("--pcap", arguments->pcap, "capture, pcap or pcapng")->required()->type_name("FILE");
   command.add_option("--output", arguments->output, "folder for 0000.pcd and on")

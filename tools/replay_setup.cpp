@@ -36,6 +36,7 @@ namespace {
   }
   platform::PipelineSettings settings{
       .port = configuration.sensor.port != 0 ? configuration.sensor.port : model.data_port,
+      .telemetry_port = model.telemetry_port,
       .sensor_address = ipv4_of(configuration.sensor.address),
       .points_per_sweep = model.max_points_per_sweep(),
       .sensor_pose = configuration.vehicle.sensor_pose,

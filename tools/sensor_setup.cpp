@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "drivers/hesai/calibration.hpp"
 #include "platform/atomic_file.hpp"
 #include "tools/command.hpp"
 
@@ -17,14 +16,22 @@ const drivers::SensorModel& find_sensor(const std::string& name) {
   throw UsageError(fmt::format("no sensor '{}'; there are {}", name, names));
 }
 
-std::vector<drivers::Beam> load_calibration(const drivers::SensorModel& model,
-                                            const std::filesystem::path& path) {
-  if (path.empty()) return {};
-  if (model.format != drivers::PacketFormat::hesai_pandar64) {
+drivers::Calibration load_calibration(const drivers::SensorModel& model, const std::filesystem::path& path) {
+  using drivers::CalibrationUse;
+  if (path.empty()) {
+    if (model.calibration == CalibrationUse::required) {
+      throw UsageError(fmt::format(
+          "{} needs the file that the unit was delivered with or gives out: --calibration FILE, or [sensor] "
+          "calibration in the configuration",
+          model.name));
+    }
+    return {};
+  }
+  if (model.calibration == CalibrationUse::none) {
     throw UsageError(
         fmt::format("{}: {} takes no calibration, its beams are the model's", path.string(), model.name));
   }
-  return drivers::hesai::parse_calibration(platform::read_file(path), path.string(), model.beams);
+  return drivers::parse_calibration(model, platform::read_file(path), path.string());
 }
 
 }  // namespace landfix::tools

@@ -3,9 +3,8 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
-#include "drivers/beam.hpp"
+#include "drivers/calibration.hpp"
 #include "drivers/sensor_model.hpp"
 
 namespace landfix::tools {
@@ -13,9 +12,9 @@ namespace landfix::tools {
 /// Throws UsageError, with the names there are.
 [[nodiscard]] const drivers::SensorModel& find_sensor(const std::string& name);
 
-/// The beams of the unit; empty, which means the model's, where `path` is. Throws UsageError where the model
-/// takes no calibration, std::runtime_error where the file does not do.
-[[nodiscard]] std::vector<drivers::Beam> load_calibration(const drivers::SensorModel& model,
-                                                          const std::filesystem::path& path);
+/// The unit's file, nothing where `path` is empty. Throws UsageError where the model takes no calibration, or
+/// needs one and there is none; std::runtime_error where the file does not do.
+[[nodiscard]] drivers::Calibration load_calibration(const drivers::SensorModel& model,
+                                                    const std::filesystem::path& path);
 
 }  // namespace landfix::tools

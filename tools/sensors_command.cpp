@@ -32,16 +32,14 @@ std::vector<int> rotation_rates(const SensorModel& model) {
 }
 
 std::vector<int> payload_sizes(const SensorModel& model) {
-  std::vector<int> sizes(model.payload_sizes.begin(), model.payload_sizes.end());
-  std::erase(sizes, 0);
-  return sizes;
+  return {model.payload_sizes.begin(), model.payload_sizes.end()};
 }
 
 nlohmann::json to_json(const SensorModel& model) {
   return {{"name", model.name},
           {"vendor", model.vendor},
           {"display_name", model.display_name},
-          {"beams", model.beams.size()},
+          {"beams", model.beam_count},
           {"rotation_hz", rotation_rates(model)},
           {"range_m", {model.min_range_m, model.max_range_m}},
           {"range_precision_m", model.range_precision_m},
@@ -54,6 +52,7 @@ nlohmann::json to_json(const SensorModel& model) {
           {"weight_kg", model.weight_kg},
           {"returns", model.max_returns},
           {"data_port", model.data_port},
+          {"telemetry_port", model.telemetry_port},
           {"payload_bytes", payload_sizes(model)},
           {"fields", field_names()}};
 }
@@ -71,7 +70,7 @@ void print_table() {
              "HORIZONTAL", "LASER", "SIZE", "WEIGHT");
   fmt::print(kRow, "", "", "", "", "Hz", "m", "m", "deg", "deg", "deg@10Hz", "nm", "mm", "kg");
   for (const SensorModel& model : drivers::sensor_models()) {
-    fmt::print(kRow, model.name, model.vendor, model.display_name, model.beams.size(),
+    fmt::print(kRow, model.name, model.vendor, model.display_name, model.beam_count,
                fmt::format("{}", fmt::join(rotation_rates(model), " ")),
                fmt::format("{:g} to {:g}", model.min_range_m, model.max_range_m), model.range_precision_m,
                fmt::format("{:+g} to {:+g}", model.vertical_down_deg, model.vertical_up_deg),

@@ -127,16 +127,16 @@ DecodeStatus Pandar64Decoder::validate_azimuths(std::span<const std::byte> paylo
   return builder_.would_cut_twice(azimuths_centideg) ? DecodeStatus::wrong_azimuth : DecodeStatus::decoded;
 }
 
-void Pandar64Decoder::begin_packet(const Header& header, std::int64_t first_firing_ns,
-                                   std::int64_t receive_utc_ns, SweepPair& sweeps) noexcept {
+DecodeStatus Pandar64Decoder::begin_packet(const Header& header, std::int64_t first_firing_ns,
+                                           std::int64_t receive_utc_ns, SweepPair& sweeps) noexcept {
   const unsigned rpm = header.motor_rpm == 0 ? kNominalRpm : header.motor_rpm;
   if (options_.firing_time_azimuth) projector_.set_turn_rate(rpm * (2.0 * std::numbers::pi / 60.0));
-  builder_.begin_packet({.first_firing_ns = first_firing_ns,
-                         .receive_utc_ns = receive_utc_ns,
-                         .duration_ns = static_cast<std::int64_t>(header.firings) * kBlockNs,
-                         .turn_ns = 60'000'000'000 / rpm,
-                         .sequence = header.sequence},
-                        header.firing_azimuth_centideg[0], sweeps);
+  return builder_.begin_packet({.first_firing_ns = first_firing_ns,
+                                .receive_utc_ns = receive_utc_ns,
+                                .duration_ns = static_cast<std::int64_t>(header.firings) * kBlockNs,
+                                .turn_ns = 60'000'000'000 / rpm,
+                                .sequence = header.sequence},
+                               header.firing_azimuth_centideg[0], sweeps);
 }
 
 DecodeResult Pandar64Decoder::decode(const Packet& packet, SweepPair& sweeps) noexcept {
@@ -149,7 +149,8 @@ DecodeResult Pandar64Decoder::decode(const Packet& packet, SweepPair& sweeps) no
   const auto firings = static_cast<std::int64_t>(header.firings);
   const std::int64_t first_firing_ns =
       header.packed_ns + kLastBlockNs - (firings - 1) * kBlockNs + earliest_firing_ns_;
-  begin_packet(header, first_firing_ns, packet.receive_utc_ns, sweeps);
+  const DecodeStatus place = begin_packet(header, first_firing_ns, packet.receive_utc_ns, sweeps);
+  if (place != DecodeStatus::decoded) return {.status = place};
   for (std::size_t firing = 0; firing < header.firings; ++firing) {
     const std::uint16_t azimuth_centideg = header.firing_azimuth_centideg[firing];
     const auto block_ns = first_firing_ns + static_cast<std::int64_t>(firing) * kBlockNs;

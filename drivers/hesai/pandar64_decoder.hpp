@@ -22,6 +22,7 @@ class Pandar64Decoder {
 
   [[nodiscard]] DecodeResult decode(const Packet& packet, SweepPair& sweeps) noexcept;
   [[nodiscard]] bool flush(SweepPair& sweeps) noexcept { return builder_.flush(sweeps); }
+  [[nodiscard]] const StreamCounters& counters() const noexcept { return builder_.counters(); }
 
  private:
   /// What a packet says, once it is known to be sound.
@@ -38,8 +39,8 @@ class Pandar64Decoder {
   [[nodiscard]] DecodeStatus validate(std::span<const std::byte> payload, Header& header) const noexcept;
   [[nodiscard]] DecodeStatus validate_azimuths(std::span<const std::byte> payload,
                                                Header& header) const noexcept;
-  void begin_packet(const Header& header, std::int64_t first_firing_ns, std::int64_t receive_utc_ns,
-                    SweepPair& sweeps) noexcept;
+  [[nodiscard]] DecodeStatus begin_packet(const Header& header, std::int64_t first_firing_ns,
+                                          std::int64_t receive_utc_ns, SweepPair& sweeps) noexcept;
 
   BlockProjector projector_;
   SweepBuilder builder_;

@@ -81,20 +81,21 @@ DecodeStatus Vlp16Decoder::validate(const WirePacket& wire, Header& header) cons
   return header.top_of_hour_us <= kLatestTopOfHourUs ? DecodeStatus::decoded : DecodeStatus::wrong_time;
 }
 
-void Vlp16Decoder::begin_packet(const Header& header, std::int64_t first_firing_ns,
-                                std::int64_t receive_utc_ns, SweepPair& sweeps) noexcept {
+DecodeStatus Vlp16Decoder::begin_packet(const Header& header, std::int64_t first_firing_ns,
+                                        std::int64_t receive_utc_ns, SweepPair& sweeps) noexcept {
   const auto azimuths_centideg = std::span(header.firing_azimuth_centideg).first(header.firings);
   spin_rate_.update(azimuths_centideg, kBlockNs * 1e-3);
   if (firing_time_azimuth_) projector_.set_turn_rate(spin_rate_.rad_per_s());
-  builder_.begin_packet({.first_firing_ns = first_firing_ns,
-                         .receive_utc_ns = receive_utc_ns,
-                         .duration_ns = static_cast<std::int64_t>(header.firings) * kBlockNs,
-                         .turn_ns = spin_rate_.turn_ns(),
-                         .sequence = {}},
-                        azimuths_centideg[0], sweeps);
+  return builder_.begin_packet({.first_firing_ns = first_firing_ns,
+                                .receive_utc_ns = receive_utc_ns,
+                                .duration_ns = static_cast<std::int64_t>(header.firings) * kBlockNs,
+                                .turn_ns = spin_rate_.turn_ns(),
+                                .sequence = {}},
+                               azimuths_centideg[0], sweeps);
 }
 
 DecodeResult Vlp16Decoder::decode(const Packet& packet, SweepPair& sweeps) noexcept {
+  if (packet.payload.size() == kPositionBytes) return {.status = DecodeStatus::telemetry};
   if (packet.payload.size() != sizeof(WirePacket)) return {.status = DecodeStatus::wrong_size};
   WirePacket wire;
   std::memcpy(&wire, packet.payload.data(), sizeof(wire));
@@ -104,7 +105,8 @@ DecodeResult Vlp16Decoder::decode(const Packet& packet, SweepPair& sweeps) noexc
   // The packet's time is that of its first firing (section 9.3).
   const std::int64_t first_firing_ns =
       builder_.clock().expand_top_of_hour(header.top_of_hour_us, packet.receive_utc_ns);
-  begin_packet(header, first_firing_ns, packet.receive_utc_ns, sweeps);
+  const DecodeStatus place = begin_packet(header, first_firing_ns, packet.receive_utc_ns, sweeps);
+  if (place != DecodeStatus::decoded) return {.status = place};
   for (std::size_t firing = 0; firing < header.firings; ++firing) {
     const std::uint16_t azimuth_centideg = header.firing_azimuth_centideg[firing];
     const auto block_ns = first_firing_ns + static_cast<std::int64_t>(firing) * kBlockNs;

@@ -26,6 +26,7 @@ class Vlp16Decoder {
 
   [[nodiscard]] DecodeResult decode(const Packet& packet, SweepPair& sweeps) noexcept;
   [[nodiscard]] bool flush(SweepPair& sweeps) noexcept { return builder_.flush(sweeps); }
+  [[nodiscard]] const StreamCounters& counters() const noexcept { return builder_.counters(); }
 
  private:
   /// What a packet says, once it is known to be sound.
@@ -36,8 +37,8 @@ class Vlp16Decoder {
     std::uint32_t top_of_hour_us = 0;
   };
   [[nodiscard]] DecodeStatus validate(const WirePacket& wire, Header& header) const noexcept;
-  void begin_packet(const Header& header, std::int64_t first_firing_ns, std::int64_t receive_utc_ns,
-                    SweepPair& sweeps) noexcept;
+  [[nodiscard]] DecodeStatus begin_packet(const Header& header, std::int64_t first_firing_ns,
+                                          std::int64_t receive_utc_ns, SweepPair& sweeps) noexcept;
 
   BlockProjector projector_;
   RangeGate gate_;

@@ -68,7 +68,9 @@ TEST(HesaiCalibration, SaysWhatIsWrongAndWhere) {
 
 TEST(MakeDecoder, RefusesAnotherModelsCalibrationAndSenselessOptions) {
   const SensorModel& pandar64 = *find_sensor_model("pandar64");
-  EXPECT_THROW(static_cast<void>(make_decoder(pandar64, {}, kTable)), std::runtime_error);
+  EXPECT_THROW(
+      static_cast<void>(make_decoder(pandar64, {}, std::vector<Beam>(std::begin(kTable), std::end(kTable)))),
+      std::runtime_error);
   EXPECT_THROW(static_cast<void>(make_decoder(pandar64, {.min_range_m = 3.0, .max_range_m = 2.0})),
                std::runtime_error);
   EXPECT_THROW(static_cast<void>(make_decoder(pandar64, {.cut_deg = NAN})), std::runtime_error);

@@ -45,12 +45,13 @@ class OneDegreeSensor {
   void send() {
     std::optional<std::uint32_t> sequence;
     if (counts_packets_) sequence = sequence_++;
-    builder.begin_packet({.first_firing_ns = time_ns_,
-                          .receive_utc_ns = time_ns_ + 1'000'000,
-                          .duration_ns = kBlocksAPacket * kBlockNs,
-                          .turn_ns = kTurnNs,
-                          .sequence = sequence},
-                         azimuth(0), sweeps);
+    const DecodeStatus place = builder.begin_packet({.first_firing_ns = time_ns_,
+                                                     .receive_utc_ns = time_ns_ + 1'000'000,
+                                                     .duration_ns = kBlocksAPacket * kBlockNs,
+                                                     .turn_ns = kTurnNs,
+                                                     .sequence = sequence},
+                                                    azimuth(0), sweeps);
+    EXPECT_EQ(place, DecodeStatus::decoded);
     for (int block = 0; block < kBlocksAPacket; ++block) {
       const float time_s = builder.begin_block(azimuth(block), time_ns_ + block * kBlockNs, sweeps);
       EXPECT_GE(time_s, 0.0F);

@@ -60,7 +60,7 @@ TEST_F(DecodeCommand, NamesTheSensorAndWritesOneFileASweep) {
   record_vlp16();
   ASSERT_EQ(decode(), 0) << error_;
   EXPECT_THAT(error_, HasSubstr("VLP-16"));
-  EXPECT_THAT(out_, HasSubstr("200 packets decoded, 1 rejected, 1 to other ports"));
+  EXPECT_THAT(out_, HasSubstr("200 packets decoded, 1 rejected, 0 lost, 1 of telemetry, 0 to other ports"));
   EXPECT_THAT(out_, HasSubstr("3 sweeps, 1 complete"));
   for (const char* const name : {"0000.pcd", "0001.pcd", "0002.pcd"}) {
     EXPECT_TRUE(std::filesystem::exists(output_ / name)) << name;

@@ -22,8 +22,9 @@ ndt::Pose SensorMounting::pose() const noexcept {
                                      .yaw_rad = ndt::kRadians_per_deg * yaw_deg});
 }
 
-Drive::Drive(Route route, std::uint64_t seed)
-    : route_(std::move(route)),
+Drive::Drive(Route route, std::uint64_t seed, std::string_view sensor)
+    : lidar_(make_lidar_model(sensor)),
+      route_(std::move(route)),
       seed_(seed),
       path_(route_),
       ground_(path_, route_.road, plan_side_streets(route_, path_, seed), seed),
@@ -32,20 +33,25 @@ Drive::Drive(Route route, std::uint64_t seed)
       scene_(make_scene(world_)) {}
 
 std::size_t Drive::packets() const noexcept {
-  return static_cast<std::size_t>(vehicle_.duration_s() * 1e9 / static_cast<double>(vlp16::kPacket_ns));
+  return static_cast<std::size_t>(vehicle_.duration_s() * 1e9 /
+                                  static_cast<double>(lidar_->traits().packet_ns));
 }
 
-Vlp16Firings Drive::fire(std::size_t packet) const {
+std::int64_t Drive::packet_utc_ns(std::size_t packet) const noexcept {
+  return kDriveStart_utc_ns + static_cast<std::int64_t>(packet) * lidar_->traits().packet_ns;
+}
+
+std::vector<Echo> Drive::fire(std::size_t packet) const {
   constexpr double kLongestCar_m = 6.0;
-  const std::int64_t start_ns = static_cast<std::int64_t>(packet) * vlp16::kPacket_ns;
-  const double start_s = 1e-9 * static_cast<double>(start_ns);
-  const std::vector<MovingCar> cars =
-      cars_near_vehicle(world_.traffic, ground_, vehicle_, start_s, vlp16::kMaxRange_m + kLongestCar_m);
+  const std::int64_t utc_ns = packet_utc_ns(packet);
+  const double start_s = 1e-9 * static_cast<double>(utc_ns - kDriveStart_utc_ns);
+  const std::vector<MovingCar> cars = cars_near_vehicle(world_.traffic, ground_, vehicle_, start_s,
+                                                        lidar_->traits().max_range_m + kLongestCar_m);
   const ndt::Pose mounting = kSensorMounting.pose();
   const auto sensor_at = [&](double after_s) -> ndt::Pose {
     return vehicle_.pose_at(start_s + after_s) * mounting;
   };
-  return fire_packet(scene_, sensor_at, cars, kDriveStart_utc_ns + start_ns, packet, {.seed = seed_});
+  return fire_packet(scene_, *lidar_, sensor_at, cars, utc_ns, packet, {.seed = seed_});
 }
 
 }  // namespace landfix::tools::simulator

@@ -3,6 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
 
 #include "ndt/pose.hpp"
 #include "tools/simulator/ground.hpp"
@@ -14,10 +17,12 @@
 
 namespace landfix::tools::simulator {
 
-/// A route with its world and the vehicle's way through it. The same route and seed give the same drive.
+/// A route with its world, the vehicle's way through it and its sensor. The same route, seed and sensor give
+/// the same drive.
 class Drive {
  public:
-  Drive(Route route, std::uint64_t seed);
+  /// `sensor`: see make_lidar_model, whose errors these are too.
+  Drive(Route route, std::uint64_t seed, std::string_view sensor = "vlp16");
   Drive(const Drive&) = delete;
   Drive& operator=(const Drive&) = delete;
   ~Drive() = default;
@@ -27,12 +32,16 @@ class Drive {
   [[nodiscard]] const Ground& ground() const noexcept { return ground_; }
   [[nodiscard]] const World& world() const noexcept { return world_; }
   [[nodiscard]] const VehicleMotion& vehicle() const noexcept { return vehicle_; }
+  [[nodiscard]] const LidarModel& lidar() const noexcept { return *lidar_; }
 
   [[nodiscard]] std::size_t packets() const noexcept;
+  /// The moment of a packet, Unix nanoseconds UTC.
+  [[nodiscard]] std::int64_t packet_utc_ns(std::size_t packet) const noexcept;
   /// Whole packets from the start of the drive on; thread-safe.
-  [[nodiscard]] Vlp16Firings fire(std::size_t packet) const;
+  [[nodiscard]] std::vector<Echo> fire(std::size_t packet) const;
 
  private:
+  std::unique_ptr<LidarModel> lidar_;
   Route route_;
   std::uint64_t seed_;
   Path path_;
@@ -53,7 +62,7 @@ struct SensorMounting {
 };
 inline const SensorMounting kSensorMounting;
 
-/// The moment of the drive's first firing, Unix nanoseconds UTC: 2026-05-04 08:15:00.037.
+/// The moment of the drive's first packet, Unix nanoseconds UTC: 2026-05-04 08:15:00.037.
 inline constexpr std::int64_t kDriveStart_utc_ns = 1'777'882'500'037'000'000;
 
 }  // namespace landfix::tools::simulator

@@ -30,7 +30,7 @@ platform::UdpFlow flow_from_sensor(std::uint16_t port) {
   return {.source_address = kSensorAddress, .source_port = port, .destination_port = port};
 }
 
-/// From the last firing to the receiver's stamp: the sensor's own delay, and a network that is never quite
+/// From a packet's end to the receiver's stamp: the sensor's own delay, and a network that is never quite
 /// even.
 std::int64_t latency_ns(std::uint64_t seed, std::uint64_t packet) {
   const double jitter = to_unit(random_bits(seed, RandomStream::network, packet));
@@ -54,15 +54,15 @@ GpsFix gps_fix(const VehicleMotion& vehicle, std::int64_t utc_ns) {
 }
 
 /// Packets `first` to `first + payloads.size()`, shared out between the processors.
-std::size_t fire_batch(const Drive& drive, std::size_t first, std::span<DataPayload> payloads) {
+std::size_t fire_batch(const Drive& drive, std::size_t first, std::span<std::vector<std::byte>> payloads) {
   const std::size_t workers = std::max(1U, std::thread::hardware_concurrency());
   std::vector<std::size_t> returns(workers, 0);
   const auto work = [&](std::size_t worker) {
     for (std::size_t i = worker; i < payloads.size(); i += workers) {
-      const Vlp16Firings firings = drive.fire(first + i);
-      payloads[i] = encode_data(firings);
-      returns[worker] += static_cast<std::size_t>(std::ranges::count_if(
-          firings.returns, [](const Vlp16Return& one) { return one.distance_raw != 0; }));
+      const std::vector<Echo> echoes = drive.fire(first + i);
+      payloads[i] = drive.lidar().encode(first + i, drive.packet_utc_ns(first + i), echoes);
+      returns[worker] += static_cast<std::size_t>(
+          std::ranges::count_if(echoes, [](const Echo& echo) { return echo.range_m > 0.0; }));
     }
   };
   {
@@ -78,25 +78,23 @@ std::size_t fire_batch(const Drive& drive, std::size_t first, std::span<DataPayl
 void write_capture(const Drive& drive, const std::filesystem::path& path, const Progress& progress,
                    SimulationSummary& summary) {
   constexpr std::size_t kBatch = 512;
-  constexpr std::int64_t kFixDelay_ns = 120'000'000;  // from the pulse to the end of the receiver's sentence
-  const platform::UdpFlow data = flow_from_sensor(kDataPort);
-  const platform::UdpFlow position = flow_from_sensor(kPositionPort);
+  const LidarTraits& lidar = drive.lidar().traits();
+  const platform::UdpFlow data = flow_from_sensor(lidar.data_port);
+  const platform::UdpFlow telemetry = flow_from_sensor(lidar.telemetry_port);
   platform::PcapWriter capture(path);
-  std::int64_t fix_utc_ns = (kDriveStart_utc_ns / kSecond_ns + 1) * kSecond_ns;
-  std::vector<DataPayload> payloads(kBatch);
+  std::int64_t telemetry_utc_ns = kDriveStart_utc_ns;
+  std::vector<std::vector<std::byte>> payloads(kBatch);
   for (std::size_t first = 0; first < drive.packets(); first += kBatch) {
     const std::size_t count = std::min(kBatch, drive.packets() - first);
     summary.returns += fire_batch(drive, first, std::span(payloads).first(count));
     for (std::size_t i = 0; i < count; ++i) {
-      const auto packet = static_cast<std::int64_t>(first + i);
-      const std::int64_t last_firing_utc_ns = kDriveStart_utc_ns + packet * vlp16::kPacket_ns +
-                                              vlp16::firing_time_ns(vlp16::kFiringsPerPacket - 1);
-      const std::int64_t receive_utc_ns = last_firing_utc_ns + latency_ns(drive.seed(), first + i);
-      if (fix_utc_ns + kFixDelay_ns < receive_utc_ns) {
-        capture.write(position, encode_position(gps_fix(drive.vehicle(), fix_utc_ns)),
-                      fix_utc_ns + kFixDelay_ns);
-        fix_utc_ns += kSecond_ns;
-        ++summary.position_packets;
+      const std::int64_t finished_utc_ns = drive.packet_utc_ns(first + i) + lidar.packet_ns;
+      const std::int64_t receive_utc_ns = finished_utc_ns + latency_ns(drive.seed(), first + i);
+      if (lidar.telemetry_port != 0 && telemetry_utc_ns < receive_utc_ns) {
+        const GpsFix fix = gps_fix(drive.vehicle(), telemetry_utc_ns);
+        capture.write(telemetry, drive.lidar().encode_telemetry(fix), telemetry_utc_ns);
+        telemetry_utc_ns += kSecond_ns;
+        ++summary.telemetry_packets;
       }
       capture.write(data, payloads[i], receive_utc_ns);
     }
@@ -123,18 +121,21 @@ void write_config(const Drive& drive, const std::filesystem::path& path) {
   const SensorMounting& mounting = kSensorMounting;
   const ndt::Pose start = drive.vehicle().pose_at(0.0);
   const ndt::RollPitchYaw angles = ndt::to_roll_pitch_yaw(start.linear());
+  const LidarTraits& lidar = drive.lidar().traits();
+  const std::optional<CalibrationFile> calibration = drive.lidar().calibration();
   platform::AtomicFile file(path);
   file.write(fmt::format(
       "# The simulated drive of route {}, seed {}. Build map.ndt from map.pcd with `landfix map`.\n"
-      "[sensor]\nmodel = \"vlp16\"\nport = {}\n\n"
+      "[sensor]\nmodel = \"{}\"\nport = {}\n{}\n"
       "[vehicle]\nsensor_pose = [{:.3f}, {:.3f}, {:.3f}, {:.3f}, {:.3f}, {:.3f}]\n\n"
       "[map]\nfile = \"map.ndt\"\n\n"
       "# Where the vehicle stands when the capture begins.\n"
       "[initial_pose]\npose = [{:.3f}, {:.3f}, {:.3f}, {:.3f}, {:.3f}, {:.3f}]\n\n"
       "[filter]\nleaf_m = {:.1f}\n\n[matcher]\nresolution_m = {:.1f}\nmax_iterations = 50\n",
-      drive.route().name, drive.seed(), kDataPort, mounting.position_m.x(), mounting.position_m.y(),
-      mounting.position_m.z(), mounting.roll_deg, mounting.pitch_deg, mounting.yaw_deg,
-      start.translation().x(), start.translation().y(), start.translation().z(),
+      drive.route().name, drive.seed(), lidar.name, lidar.data_port,
+      calibration ? fmt::format("calibration = \"{}\"\n", calibration->name) : "", mounting.position_m.x(),
+      mounting.position_m.y(), mounting.position_m.z(), mounting.roll_deg, mounting.pitch_deg,
+      mounting.yaw_deg, start.translation().x(), start.translation().y(), start.translation().z(),
       angles.roll_rad / ndt::kRadians_per_deg, angles.pitch_rad / ndt::kRadians_per_deg,
       angles.yaw_rad / ndt::kRadians_per_deg, kLeaf_m, kResolution_m));
   file.commit();
@@ -153,6 +154,11 @@ SimulationSummary write_drive(const Drive& drive, const std::filesystem::path& f
   platform::write_pcd_records(folder / "map.pcd", platform::kPositionMembers, std::as_bytes(std::span(map)),
                               sizeof(Eigen::Vector3f));
   write_config(drive, folder / "config.toml");
+  if (const auto calibration = drive.lidar().calibration()) {
+    platform::AtomicFile file(folder / calibration->name);
+    file.write(calibration->text);
+    file.commit();
+  }
   return summary;
 }
 

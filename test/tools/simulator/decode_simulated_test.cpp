@@ -69,9 +69,8 @@ TEST(DecodeSimulated, PointsMovedByTheTruthLieOnTheSurveyedMap) {
   std::size_t sweeps_seen = 0;
   std::vector<float> distances_m;
   for (std::size_t packet = 0; packet < drive.packets(); ++packet) {
-    const DataPayload payload = encode_data(drive.fire(packet));
-    const std::int64_t receive_utc_ns =
-        kDriveStart_utc_ns + static_cast<std::int64_t>(packet + 1) * vlp16::kPacket_ns;
+    const auto payload = drive.lidar().encode(packet, drive.packet_utc_ns(packet), drive.fire(packet));
+    const std::int64_t receive_utc_ns = drive.packet_utc_ns(packet + 1);
     const drivers::DecodeResult result = decoder.decode({payload, receive_utc_ns}, sweeps);
     ASSERT_EQ(result.status, drivers::DecodeStatus::decoded) << to_string(result.status);
     if (!result.sweep_completed) continue;

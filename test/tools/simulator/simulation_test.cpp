@@ -48,7 +48,7 @@ TEST(Simulation, APacketIsTheSameWhicheverThreadFiresItAndWhen) {
     ASSERT_EQ(capture.next(packet), platform::ReadStatus::packet);
     if (packet.destination_port != 2368) continue;
     if (number % 100 == 7) {
-      const DataPayload alone = encode_data(drive.fire(number));
+      const auto alone = drive.lidar().encode(number, drive.packet_utc_ns(number), drive.fire(number));
       ASSERT_TRUE(std::ranges::equal(packet.payload, alone)) << number;
     }
     ++number;
@@ -88,7 +88,7 @@ TEST(Simulation, TheTruthCoversTheCaptureAndTheRoute) {
   }
   EXPECT_GT(truth.back().stamp_utc_ns, last_utc_ns);
   EXPECT_EQ(data, summary.data_packets);
-  EXPECT_EQ(position, summary.position_packets);
+  EXPECT_EQ(position, summary.telemetry_packets);
   EXPECT_NEAR(static_cast<double>(data), summary.duration_s * 753.52, 2.0);
   EXPECT_NEAR(static_cast<double>(position), summary.duration_s, 1.0);
 }

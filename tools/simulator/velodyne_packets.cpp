@@ -1,25 +1,20 @@
-#include "tools/simulator/velodyne_encoder.hpp"
+#include "tools/simulator/velodyne_packets.hpp"
 
 #include <chrono>
 #include <cmath>
-#include <span>
 #include <string>
 #include <string_view>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-namespace landfix::tools::simulator {
+#include "tools/simulator/wire_bytes.hpp"
+
+namespace landfix::tools::simulator::velodyne {
 namespace {
 
-// A data packet, little-endian throughout:
-//   12 blocks of 100 bytes: flag FF EE | azimuth u16 | 32 x (distance u16, reflectivity u8)
-//   1200: microseconds since the top of the hour u32 | 1204: return mode u8 | 1205: product u8
 constexpr std::size_t kBlockBytes = 100;
-constexpr std::uint16_t kBlockFlag = 0xEEFF;
 constexpr std::size_t kTimeAt = 1200;
-constexpr std::uint8_t kStrongestReturn = 0x37;
-constexpr std::uint8_t kVlp16 = 0x22;
 
 // A position packet of 512 bytes:
 //   187: temperatures and calibration | 198: microseconds since the top of the hour u32
@@ -30,13 +25,6 @@ constexpr std::size_t kPulseAt = 0xCA;
 constexpr std::size_t kNmeaAt = 0xCE;
 constexpr std::uint8_t kPulseLocked = 2;
 constexpr std::uint8_t kBoardCelsius = 45;
-
-template <class T>
-void put(std::span<std::byte> bytes, std::size_t at, T value) noexcept {
-  for (std::size_t i = 0; i < sizeof(T); ++i) {
-    bytes[at + i] = static_cast<std::byte>((static_cast<std::uint64_t>(value) >> (8 * i)) & 0xFF);
-  }
-}
 
 std::uint32_t top_of_hour_us(std::int64_t utc_ns) noexcept {
   constexpr std::int64_t kHour_ns = 3'600'000'000'000;
@@ -65,34 +53,37 @@ std::string rmc(const GpsFix& fix) {
 
 }  // namespace
 
-DataPayload encode_data(const Vlp16Firings& firings) noexcept {
-  DataPayload payload{};
-  for (std::size_t block = 0; block < vlp16::kBlocks; ++block) {
-    const std::size_t at = block * kBlockBytes;
-    put(payload, at, kBlockFlag);
-    put(payload, at + 2, firings.azimuth_centideg_raw[block]);
-    for (std::size_t i = 0; i < vlp16::kFiringsPerBlock; ++i) {
-      const Vlp16Return& one = firings.returns[block * vlp16::kFiringsPerBlock + i];
-      put(payload, at + 4 + 3 * i, one.distance_raw);
-      put(payload, at + 6 + 3 * i, one.reflectivity_raw);
-    }
-  }
-  put(payload, kTimeAt, top_of_hour_us(firings.first_firing_utc_ns));
-  put(payload, kTimeAt + 4, kStrongestReturn);
-  put(payload, kTimeAt + 5, kVlp16);
-  return payload;
+void DataPacket::put_block(std::size_t block, std::uint16_t flag, std::uint16_t azimuth_centideg) noexcept {
+  put_little(bytes_, block * kBlockBytes, flag, 2);
+  put_little(bytes_, block * kBlockBytes + 2, azimuth_centideg, 2);
 }
 
-PositionPayload encode_position(const GpsFix& fix) {
-  PositionPayload payload{};
-  put(payload, kTopBoardAt, kBoardCelsius);
-  put(payload, kTopBoardAt + 1, kBoardCelsius);
-  put(payload, kPositionTimeAt, top_of_hour_us(fix.utc_ns));
-  put(payload, kPulseAt, kPulseLocked);
+void DataPacket::put_return(std::size_t block, std::size_t slot, const Echo& echo,
+                            double range_unit_m) noexcept {
+  const std::size_t at = block * kBlockBytes + 4 + 3 * slot;
+  put_little(bytes_, at, to_range_raw(echo.range_m, range_unit_m), 2);
+  put_little(bytes_, at + 2, echo.reflectivity, 1);
+}
+
+void DataPacket::put_time(std::int64_t utc_ns) noexcept {
+  put_little(bytes_, kTimeAt, top_of_hour_us(utc_ns), 4);
+}
+
+void DataPacket::put_factory_bytes(std::uint8_t first, std::uint8_t second) noexcept {
+  put_little(bytes_, kTimeAt + 4, first, 1);
+  put_little(bytes_, kTimeAt + 5, second, 1);
+}
+
+std::vector<std::byte> position_packet(const GpsFix& fix) {
+  std::vector<std::byte> payload(512);
+  put_little(payload, kTopBoardAt, kBoardCelsius, 1);
+  put_little(payload, kTopBoardAt + 1, kBoardCelsius, 1);
+  put_little(payload, kPositionTimeAt, top_of_hour_us(fix.utc_ns), 4);
+  put_little(payload, kPulseAt, kPulseLocked, 1);
   const std::string sentence = rmc(fix);
   for (std::size_t i = 0; i < sentence.size(); ++i)
-    put(payload, kNmeaAt + i, static_cast<std::uint8_t>(sentence[i]));
+    payload[kNmeaAt + i] = static_cast<std::byte>(sentence[i]);
   return payload;
 }
 
-}  // namespace landfix::tools::simulator
+}  // namespace landfix::tools::simulator::velodyne

@@ -1,0 +1,22 @@
+#include "drivers/calibration.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "drivers/hesai/calibration.hpp"
+
+namespace landfix::drivers {
+
+Calibration parse_calibration(const SensorModel& model, std::span<const std::byte> file,
+                              std::string_view name) {
+  switch (model.format) {
+    case PacketFormat::hesai_pandar64:
+      return hesai::parse_calibration(file, name, model.beams);
+    case PacketFormat::velodyne_vlp16:
+      break;
+  }
+  throw std::runtime_error(std::string(name) + ": " + std::string(model.name) +
+                           " takes no calibration, its beams are the model's");
+}
+
+}  // namespace landfix::drivers

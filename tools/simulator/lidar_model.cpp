@@ -1,0 +1,55 @@
+#include "tools/simulator/lidar_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "tools/simulator/vlp16_model.hpp"
+
+namespace landfix::tools::simulator {
+namespace {
+
+struct Entry {
+  std::string_view name;
+  std::unique_ptr<LidarModel> (*make)();
+};
+
+constexpr std::array kModels{
+    Entry{"vlp16", [] { return make_vlp16(Vlp16Variant::puck); }},
+    Entry{"vlp16hires", [] { return make_vlp16(Vlp16Variant::hi_res); }},
+};
+
+}  // namespace
+
+Eigen::Vector3d Shot::direction() const noexcept {
+  const double elevation_rad = elevation_deg * std::numbers::pi / 180.0;
+  const double azimuth_rad = azimuth_deg * std::numbers::pi / 180.0;
+  return {std::cos(elevation_rad) * std::cos(azimuth_rad), -std::cos(elevation_rad) * std::sin(azimuth_rad),
+          std::sin(elevation_rad)};
+}
+
+std::uint16_t rotor_angle_centideg(std::int64_t utc_ns) noexcept {
+  return static_cast<std::uint16_t>(std::lround(100.0 * rotor_angle_deg(utc_ns)) % 36000);
+}
+
+std::vector<std::string_view> lidar_model_names() {
+  std::vector<std::string_view> names;
+  for (const Entry& entry : kModels) names.push_back(entry.name);
+  return names;
+}
+
+std::unique_ptr<LidarModel> make_lidar_model(std::string_view name) {
+  const auto* const found = std::ranges::find(kModels, name, &Entry::name);
+  if (found == kModels.end()) {
+    throw std::invalid_argument(fmt::format("the simulator has no sensor '{}'; there are {}", name,
+                                            fmt::join(lidar_model_names(), ", ")));
+  }
+  return found->make();
+}
+
+}  // namespace landfix::tools::simulator
