@@ -3,15 +3,23 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "drivers/sweep.hpp"
 
 namespace landfix::drivers {
 
+/// What the time of a packet says about the clocks.
+enum class ClockVerdict : std::uint8_t {
+  continues,  ///< as was to be expected
+  doubtful,   ///< far off: the packet is damaged, or the first after a clock was set; not to be used
+  stepped,    ///< the second packet that says so: a clock was set, the times start anew
+};
+
 /// Takes the time of each packet by the sensor's clock and by the receiver's. A sensor that differs by more
-/// than 10 s is not synchronised (it counts from power-up, or from a date of its own): then its spacing is
-/// kept and its offset is the smallest (receive - sensor) seen, the packet that was delayed least, which may
-/// grow by 100 ppm, the most that two crystals drift apart.
+/// than 10 s, and has not said where it has its time from, is not synchronised (it counts from power-up, or
+/// from a date of its own): then its spacing is kept and its offset is the smallest (receive - sensor) seen,
+/// the packet that was delayed least, which may grow by 100 ppm, the most that two crystals drift apart.
 class SensorClock {
  public:
   /// Latest time that is handled, year 2099. Sums and differences of such times cannot overflow.
@@ -23,8 +31,12 @@ class SensorClock {
   [[nodiscard]] std::int64_t expand_top_of_hour(std::uint32_t microseconds,
                                                 std::int64_t receive_utc_ns) const noexcept;
 
-  /// Takes the times of the next packet. True if one of the clocks has jumped; the offset starts anew then.
-  bool advance(std::int64_t sensor_ns, std::int64_t receive_utc_ns) noexcept;
+  /// Takes the times of the next packet.
+  [[nodiscard]] ClockVerdict advance(std::int64_t sensor_ns, std::int64_t receive_utc_ns) noexcept;
+
+  /// The sensor knows UTC (from satellites), and said so in a packet received then: it is synchronised,
+  /// whatever the receiver's clock shows. True if the times of coming packets are others for it.
+  [[nodiscard]] bool learn_utc(std::int64_t sensor_utc_ns, std::int64_t receive_utc_ns) noexcept;
 
   [[nodiscard]] std::int64_t to_utc_ns(std::int64_t sensor_ns) const noexcept {
     return sensor_ns + offset_ns_;
@@ -36,12 +48,21 @@ class SensorClock {
  private:
   /// What the sensor's clock should show for a packet received then.
   [[nodiscard]] std::int64_t expected_ns(std::int64_t receive_utc_ns) const noexcept;
+  /// UTC as well as it is known without the packet's own time.
+  [[nodiscard]] std::int64_t reference_ns(std::int64_t receive_utc_ns) const noexcept;
   /// Whether the time fits those before: no clock has been set in between.
   [[nodiscard]] bool continues(std::int64_t sensor_ns, std::int64_t receive_utc_ns) const noexcept;
+  void start(std::int64_t sensor_ns, std::int64_t receive_utc_ns) noexcept;
 
-  std::int64_t last_sensor_ns_ = 0;
-  std::int64_t last_receive_utc_ns_ = 0;
-  std::int64_t offset_ns_ = 0;  ///< UTC - sensor; 0 where the sensor is synchronised
+  /// One packet by both clocks.
+  struct Moment {
+    std::int64_t sensor_ns = 0;
+    std::int64_t receive_utc_ns = 0;
+  };
+  Moment last_;
+  std::optional<Moment> doubtful_;
+  std::int64_t offset_ns_ = 0;     ///< UTC - sensor; 0 where the sensor is synchronised
+  std::int64_t reference_ns_ = 0;  ///< UTC by the sensor's satellites - receiver's clock; 0 while unknown
   bool started_ = false;
   bool synchronised_ = false;
 };

@@ -36,6 +36,7 @@ class Sweep {
     last_time_s_ = 0.0F;
     start_utc_ns_ = start_utc_ns;
     complete_ = at_cut;
+    lost_packets_ = 0;
     time_source_ = time_source;
   }
 
@@ -49,8 +50,11 @@ class Sweep {
     last_time_s_ = std::max(last_time_s_, point.time_s);
   }
 
-  /// Something of this turn is missing: it did not end at the cut, or packets were lost.
+  /// Something of this turn is missing: it did not end at the cut.
   void mark_partial() noexcept { complete_ = false; }
+  /// Packets of this turn have not come; `recover_packet` takes one back that was only late.
+  void lose_packets(std::uint32_t count) noexcept { lost_packets_ += count; }
+  void recover_packet() noexcept { lost_packets_ -= lost_packets_ > 0 ? 1 : 0; }
 
   [[nodiscard]] std::span<const Point> points() const noexcept { return storage_.first(size_); }
   [[nodiscard]] std::int64_t start_utc_ns() const noexcept { return start_utc_ns_; }
@@ -59,8 +63,10 @@ class Sweep {
     return start_utc_ns_ + static_cast<std::int64_t>(static_cast<double>(last_time_s_) * 1e9);
   }
   [[nodiscard]] float last_time_s() const noexcept { return last_time_s_; }
-  /// A whole turn, from cut to cut.
-  [[nodiscard]] bool complete() const noexcept { return complete_; }
+  /// A whole turn, from cut to cut, and no packet of it missing.
+  [[nodiscard]] bool complete() const noexcept { return complete_ && lost_packets_ == 0; }
+  /// Packets that should have been part of it.
+  [[nodiscard]] std::uint32_t lost_packets() const noexcept { return lost_packets_; }
   [[nodiscard]] TimeSource time_source() const noexcept { return time_source_; }
   [[nodiscard]] std::size_t overflowed() const noexcept { return overflowed_; }
 
@@ -70,6 +76,7 @@ class Sweep {
   std::size_t overflowed_ = 0;
   std::int64_t start_utc_ns_ = 0;
   float last_time_s_ = 0.0F;
+  std::uint32_t lost_packets_ = 0;
   bool complete_ = false;
   TimeSource time_source_ = TimeSource::receive;
 };

@@ -1,12 +1,16 @@
 #include "drivers/sweep_builder.hpp"
 
+#include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace landfix::drivers {
 namespace {
 
 /// The last packet before a dark sector begins up to its own span, at most 10 deg, before the sector.
 constexpr int kSamePlaceCentideg = 1000;
+/// Networks reorder packets by less than this.
+constexpr std::int64_t kOvertakenByNs = 10'000'000;
 
 bool same_place(int a_centideg, int b_centideg) noexcept {
   const int apart = std::abs(a_centideg - b_centideg);
@@ -15,49 +19,90 @@ bool same_place(int a_centideg, int b_centideg) noexcept {
 
 }  // namespace
 
-bool SweepBuilder::follows_a_loss(const PacketTiming& packet) noexcept {
-  if (!started_) return false;
-  if (packet.sequence && last_sequence_) return *packet.sequence != *last_sequence_ + 1;
-  const std::int64_t late_ns = packet.first_firing_ns - last_packet_ns_ - packet.duration_ns;
-  if (std::abs(late_ns) <= packet.duration_ns / 2) return false;
-  // A restricted field of view sends nothing over the same sector in every turn; a loss may be anywhere.
-  const bool known = dark_from_centideg_ && same_place(*dark_from_centideg_, last_azimuth_centideg_);
-  dark_from_centideg_ = last_azimuth_centideg_;
-  return !known;
+void SweepBuilder::learn_utc(std::int64_t sensor_utc_ns, std::int64_t receive_utc_ns) noexcept {
+  if (clock_.learn_utc(sensor_utc_ns, receive_utc_ns)) utc_changed_ = true;
 }
 
 DecodeStatus SweepBuilder::begin_packet(const PacketTiming& packet, std::uint16_t first_azimuth_centideg,
                                         SweepPair& sweeps) noexcept {
   has_cut_ = false;
-  const bool jumped = clock_.advance(packet.first_firing_ns, packet.receive_utc_ns);
-  lost_ = follows_a_loss(packet) || jumped;
+  if (history_.contains(packet.first_firing_ns)) return DecodeStatus::duplicate;
+  overtaken_ = is_overtaken(packet);
+  if (overtaken_) return join_late(packet, sweeps);
+  const ClockVerdict verdict = clock_.advance(packet.first_firing_ns, packet.receive_utc_ns);
+  if (verdict == ClockVerdict::doubtful) return DecodeStatus::wrong_time;
+  history_.insert(packet.first_firing_ns);
+  const bool stepped = std::exchange(utc_changed_, false) || verdict == ClockVerdict::stepped;
+  const bool restarted = restarts(packet);
+  const std::uint32_t lost = stepped || restarted ? 0 : lost_before(packet);
+  counters_.clock_steps += stepped ? 1 : 0;
+  counters_.restarts += restarted ? 1 : 0;
+  counters_.lost_packets += lost;
+  lost_ = stepped || restarted || lost != 0;
   if (open_) {
-    if (lost_) sweeps.current().mark_partial();
+    sweeps.current().lose_packets(lost);
     const std::int64_t elapsed_ns = packet.first_firing_ns - sweep_start_ns_;
-    if (jumped || elapsed_ns < 0 || elapsed_ns > packet.turn_ns + packet.turn_ns / 2) {
-      sweeps.current().mark_partial();
-      close(sweeps);
-      cutter_.restart();
-    }
+    if (stepped || restarted || elapsed_ns > packet.turn_ns + packet.turn_ns / 2) end_turn(sweeps);
   }
   started_ = true;
-  last_packet_ns_ = packet.first_firing_ns;
-  last_sequence_ = packet.sequence;
-  last_azimuth_centideg_ = first_azimuth_centideg;
+  newest_packet_ns_ = packet.first_firing_ns;
+  newest_sequence_ = packet.sequence;
+  newest_azimuth_centideg_ = first_azimuth_centideg;
   return DecodeStatus::decoded;
+}
+
+bool SweepBuilder::is_overtaken(const PacketTiming& packet) const noexcept {
+  const std::int64_t by_ns = newest_packet_ns_ - packet.first_firing_ns;
+  return started_ && by_ns > 0 && by_ns <= kOvertakenByNs && !utc_changed_;
+}
+
+DecodeStatus SweepBuilder::join_late(const PacketTiming& packet, SweepPair& sweeps) noexcept {
+  history_.insert(packet.first_firing_ns);
+  if (!open_ || packet.first_firing_ns < sweep_start_ns_) return DecodeStatus::late;
+  // It was counted as lost when it was overtaken.
+  if (sweeps.current().lost_packets() > 0) --counters_.lost_packets;
+  sweeps.current().recover_packet();
+  return DecodeStatus::decoded;
+}
+
+bool SweepBuilder::restarts(const PacketTiming& packet) const noexcept {
+  if (!packet.sequence || !newest_sequence_) return false;
+  return static_cast<std::int32_t>(*packet.sequence - *newest_sequence_) <= 0;
+}
+
+std::uint32_t SweepBuilder::lost_before(const PacketTiming& packet) noexcept {
+  if (!started_) return 0;
+  if (packet.sequence && newest_sequence_) return *packet.sequence - *newest_sequence_ - 1;
+  const std::int64_t late_ns = packet.first_firing_ns - newest_packet_ns_ - packet.duration_ns;
+  if (late_ns <= packet.duration_ns / 2) return 0;
+  // A restricted field of view sends nothing over the same sector in every turn; a loss may be anywhere.
+  const bool known = dark_from_centideg_ && same_place(*dark_from_centideg_, newest_azimuth_centideg_);
+  dark_from_centideg_ = newest_azimuth_centideg_;
+  if (known) return 0;
+  return static_cast<std::uint32_t>((late_ns + packet.duration_ns / 2) / packet.duration_ns);
 }
 
 float SweepBuilder::begin_block(std::uint16_t azimuth_centideg, std::int64_t first_firing_ns,
                                 SweepPair& sweeps) noexcept {
-  const bool at_cut = cutter_.advance(azimuth_centideg);
-  if (at_cut && open_) close(sweeps);
-  if (!open_) {
-    open_ = true;
-    sweep_start_ns_ = first_firing_ns;
-    sweeps.current().begin(clock_.to_utc_ns(first_firing_ns), at_cut && !lost_, clock_.time_source());
+  if (!overtaken_) {
+    const bool at_cut = cutter_.advance(azimuth_centideg);
+    if (at_cut && open_) close(sweeps);
+    if (!open_) {
+      open_ = true;
+      sweep_start_ns_ = first_firing_ns;
+      sweeps.current().begin(clock_.to_utc_ns(first_firing_ns), at_cut && !lost_, clock_.time_source());
+    }
+    lost_ = false;
   }
-  lost_ = false;
-  return static_cast<float>(static_cast<double>(first_firing_ns - sweep_start_ns_) * 1e-9);
+  // Stamps jitter: a packet just after the cut may claim to be a little before it.
+  const std::int64_t since_ns = std::max<std::int64_t>(0, first_firing_ns - sweep_start_ns_);
+  return static_cast<float>(static_cast<double>(since_ns) * 1e-9);
+}
+
+void SweepBuilder::end_turn(SweepPair& sweeps) noexcept {
+  sweeps.current().mark_partial();
+  close(sweeps);
+  cutter_.restart();
 }
 
 void SweepBuilder::close(SweepPair& sweeps) noexcept {
@@ -71,9 +116,7 @@ void SweepBuilder::close(SweepPair& sweeps) noexcept {
 bool SweepBuilder::flush(SweepPair& sweeps) noexcept {
   if (!open_ || sweeps.current().points().empty()) return false;
   has_cut_ = false;
-  sweeps.current().mark_partial();
-  close(sweeps);
-  cutter_.restart();
+  end_turn(sweeps);
   return true;
 }
 

@@ -12,6 +12,11 @@ constexpr int within_a_turn(int centideg) noexcept {
   return remainder < 0 ? remainder + kTurnCentideg : remainder;
 }
 
+/// From one azimuth to the next, -9000 to 26999.
+constexpr int step_between(int from_centideg, int to_centideg) noexcept {
+  return within_a_turn(to_centideg - from_centideg + kQuarterTurn) - kQuarterTurn;
+}
+
 }  // namespace
 
 SweepCutter::SweepCutter(double cut_deg) noexcept
@@ -24,20 +29,22 @@ bool SweepCutter::advance(std::uint16_t azimuth_centideg) noexcept {
     position_ = relative;
     return false;
   }
-  const int step = within_a_turn(relative - position_ + kQuarterTurn) - kQuarterTurn;
-  position_ += step;
+  position_ += step_between(position_, relative);
   if (position_ < -kQuarterTurn) position_ = relative;  // not jitter: it turns the other way
   if (position_ < kTurnCentideg) return false;
   position_ -= kTurnCentideg;
   return true;
 }
 
-bool SweepCutter::would_cut_twice(std::span<const std::uint16_t> azimuths_centideg) const noexcept {
+bool SweepCutter::cannot_be(std::span<const std::uint16_t> azimuths_centideg) const noexcept {
   SweepCutter ahead = *this;
   int cuts = 0;
-  for (const std::uint16_t azimuth_centideg : azimuths_centideg)
-    cuts += ahead.advance(azimuth_centideg) ? 1 : 0;
-  return cuts > 1;
+  int turned = 0;
+  for (std::size_t i = 0; i < azimuths_centideg.size(); ++i) {
+    cuts += ahead.advance(azimuths_centideg[i]) ? 1 : 0;
+    if (i > 0) turned += step_between(azimuths_centideg[i - 1], azimuths_centideg[i]);
+  }
+  return cuts > 1 || turned >= kTurnCentideg;
 }
 
 }  // namespace landfix::drivers

@@ -20,8 +20,9 @@ class SweepCutter {
   /// Takes the next block's azimuth, 0 to 35999. True if the cut has been passed since the block before.
   [[nodiscard]] bool advance(std::uint16_t azimuth_centideg) noexcept;
 
-  /// Whether blocks with these azimuths would be cut more than once: no rotor turns that far in a packet.
-  [[nodiscard]] bool would_cut_twice(std::span<const std::uint16_t> azimuths_centideg) const noexcept;
+  /// Whether a packet with blocks at these azimuths would be cut more than once or turn a whole turn: no
+  /// rotor turns that far in a packet, so one of them is damaged.
+  [[nodiscard]] bool cannot_be(std::span<const std::uint16_t> azimuths_centideg) const noexcept;
 
   /// Forgets where the rotor was.
   void restart() noexcept { started_ = false; }

@@ -124,7 +124,7 @@ DecodeStatus Pandar64Decoder::validate_azimuths(std::span<const std::byte> paylo
     if (azimuth_centideg != of_firing) return DecodeStatus::wrong_azimuth;
   }
   const auto azimuths_centideg = std::span(header.firing_azimuth_centideg).first(header.firings);
-  return builder_.would_cut_twice(azimuths_centideg) ? DecodeStatus::wrong_azimuth : DecodeStatus::decoded;
+  return builder_.cannot_be(azimuths_centideg) ? DecodeStatus::wrong_azimuth : DecodeStatus::decoded;
 }
 
 DecodeStatus Pandar64Decoder::begin_packet(const Header& header, std::int64_t first_firing_ns,

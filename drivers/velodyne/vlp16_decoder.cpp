@@ -74,7 +74,7 @@ DecodeStatus Vlp16Decoder::validate(const WirePacket& wire, Header& header) cons
     header.firing_azimuth_centideg[firing] = azimuths_centideg[firing * header.returns];
     if (azimuths_centideg[b] != header.firing_azimuth_centideg[firing]) return DecodeStatus::wrong_azimuth;
   }
-  if (builder_.would_cut_twice(std::span(header.firing_azimuth_centideg).first(header.firings))) {
+  if (builder_.cannot_be(std::span(header.firing_azimuth_centideg).first(header.firings))) {
     return DecodeStatus::wrong_azimuth;
   }
   header.top_of_hour_us = load_little_endian<std::uint32_t>(wire.top_of_hour_us);

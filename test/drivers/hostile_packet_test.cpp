@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -73,21 +74,23 @@ TEST_P(HostilePacket, RandomBytesOfTheRightSizeAreRefused) {
 
 TEST_P(HostilePacket, FlippedBitsAndWildReceiveTimesDoNoHarm) {
   const auto sound = sound_packet(GetParam());
-  DecoderBench bench(GetParam(), {}, 4000);
+  // Now and then a new decoder: one that has seen a packet knows it again, and what time it is.
+  std::optional<DecoderBench> bench;
   std::mt19937_64 random(2);
   std::uniform_int_distribution<std::size_t> any_bit(0, sound.size() * 8 - 1);
   std::uniform_int_distribution<std::int64_t> any_time(std::numeric_limits<std::int64_t>::min(),
                                                        std::numeric_limits<std::int64_t>::max());
   int decoded = 0;
   for (int i = 0; i < 20'000; ++i) {
+    if (i % 3 == 0) bench.emplace(GetParam(), DecoderOptions{}, 4000);
     auto payload = sound;
     for (int flips = 0; flips < 1 + i % 4; ++flips) {
       const std::size_t bit = any_bit(random);
       payload[bit / 8] ^= std::byte{1} << (bit % 8);
     }
-    const bool was_decoded = bench.decode(payload, any_time(random)).status == DecodeStatus::decoded;
+    const bool was_decoded = bench->decode(payload, any_time(random)).status == DecodeStatus::decoded;
     decoded += was_decoded ? 1 : 0;
-    expect_sane(bench);
+    expect_sane(*bench);
   }
   EXPECT_GT(decoded, 1000) << "flips among the returns are not seen";
 }

@@ -115,10 +115,12 @@ TEST(Pandar64Decoder, TakesTheCountsFromTheHeader) {
   EXPECT_EQ(bench.decode(seven.bytes()).status, DecodeStatus::decoded);
   Pandar64Packet counted(kStrongest, 7, 1);
   counted.set_azimuths(10140, 20);
+  counted.set_microseconds(389);
   EXPECT_EQ(bench.decode(counted.bytes()).status, DecodeStatus::decoded);
   EXPECT_EQ(bench.all_points().size(), 1U);
   Pandar64Packet unit;
   unit.set_azimuths(10280, 20);
+  unit.set_microseconds(778);
   unit.set_byte(5, 8);
   unit.set_return(0, 0, 1000);
   EXPECT_EQ(bench.decode(unit.bytes()).status, DecodeStatus::decoded);

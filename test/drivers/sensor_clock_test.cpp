@@ -25,9 +25,9 @@ TEST(SensorClock, ExpandsTheHourNearTheTimeOfReceipt) {
 
 TEST(SensorClock, TrustsASynchronisedSensor) {
   SensorClock clock;
-  EXPECT_FALSE(clock.advance(kHourUtcNs, kHourUtcNs + 2'000'000));
+  EXPECT_EQ(clock.advance(kHourUtcNs, kHourUtcNs + 2'000'000), ClockVerdict::continues);
   EXPECT_EQ(clock.time_source(), TimeSource::sensor);
-  EXPECT_FALSE(clock.advance(kHourUtcNs + 1'000'000, kHourUtcNs + 9'000'000));
+  EXPECT_EQ(clock.advance(kHourUtcNs + 1'000'000, kHourUtcNs + 9'000'000), ClockVerdict::continues);
   EXPECT_EQ(clock.to_utc_ns(kHourUtcNs + 1'000'000), kHourUtcNs + 1'000'000);
 }
 
@@ -38,7 +38,8 @@ TEST(SensorClock, AnchorsAnUnsynchronisedSensorToThePacketDelayedLeast) {
   std::uniform_int_distribution<std::int64_t> delay_ns(1'000'000, 20'000'000);
   for (std::int64_t i = 0; i < 2000; ++i) {
     const std::int64_t sensor_ns = kHourUtcNs + i * 1'327'104;
-    EXPECT_FALSE(clock.advance(sensor_ns, sensor_ns + offset_ns + (i == 500 ? 500'000 : delay_ns(random))));
+    EXPECT_EQ(clock.advance(sensor_ns, sensor_ns + offset_ns + (i == 500 ? 500'000 : delay_ns(random))),
+              ClockVerdict::continues);
   }
   EXPECT_EQ(clock.time_source(), TimeSource::receive);
   const std::int64_t late_ns = clock.to_utc_ns(kHourUtcNs) - kHourUtcNs - offset_ns;
@@ -52,7 +53,7 @@ TEST(SensorClock, FollowsTheDriftOfTheCrystals) {
   for (int second = 0; second < 3600; ++second) {
     const std::int64_t sensor_ns = kHourUtcNs + second * kSecondNs;
     const std::int64_t receive_ns = sensor_ns + 5 * kHourNs + second * 50'000;  // 50 ppm slow
-    EXPECT_FALSE(clock.advance(sensor_ns, receive_ns));
+    EXPECT_EQ(clock.advance(sensor_ns, receive_ns), ClockVerdict::continues);
     late_ns = receive_ns - clock.to_utc_ns(sensor_ns);
   }
   EXPECT_EQ(late_ns, 0);
@@ -60,15 +61,64 @@ TEST(SensorClock, FollowsTheDriftOfTheCrystals) {
 
 TEST(SensorClock, StartsAnewWhenAClockIsSet) {
   SensorClock clock;
-  EXPECT_FALSE(clock.advance(kHourUtcNs, kHourUtcNs + 1000 * kSecondNs));
+  EXPECT_EQ(clock.advance(kHourUtcNs, kHourUtcNs + 1000 * kSecondNs), ClockVerdict::continues);
   EXPECT_EQ(clock.time_source(), TimeSource::receive);
   const std::int64_t now_ns = kHourUtcNs + 1001 * kSecondNs;
-  EXPECT_TRUE(clock.advance(now_ns - 1'000'000, now_ns)) << "the sensor has found its satellites";
+  // The sensor has found its satellites.
+  EXPECT_EQ(clock.advance(now_ns - 1'000'000, now_ns), ClockVerdict::doubtful);
+  EXPECT_EQ(clock.advance(now_ns, now_ns + 1'000'000), ClockVerdict::stepped);
   EXPECT_EQ(clock.time_source(), TimeSource::sensor);
   EXPECT_EQ(clock.to_utc_ns(now_ns), now_ns);
-  EXPECT_TRUE(clock.advance(now_ns, now_ns - 50 * kSecondNs)) << "the computer was set";
+  // The computer was set.
+  EXPECT_EQ(clock.advance(now_ns + 1'000'000, now_ns - 50 * kSecondNs), ClockVerdict::doubtful);
+  EXPECT_EQ(clock.advance(now_ns + 2'000'000, now_ns - 50 * kSecondNs), ClockVerdict::stepped);
   EXPECT_EQ(clock.time_source(), TimeSource::receive);
-  EXPECT_TRUE(clock.advance(now_ns - 20'000'000, now_ns - 50 * kSecondNs)) << "back, by little";
+  // Back, by little.
+  EXPECT_EQ(clock.advance(now_ns - 20'000'000, now_ns - 50 * kSecondNs), ClockVerdict::doubtful);
+  EXPECT_EQ(clock.advance(now_ns - 19'000'000, now_ns - 50 * kSecondNs), ClockVerdict::stepped);
+}
+
+TEST(SensorClock, IsNotMovedByOnePacketOfAnotherTime) {
+  SensorClock clock;
+  EXPECT_EQ(clock.advance(kHourUtcNs, kHourUtcNs + 2'000'000), ClockVerdict::continues);
+  for (int i = 1; i < 100; ++i) {
+    const std::int64_t now_ns = kHourUtcNs + i * 1'000'000;
+    if (i % 10 == 0) {
+      EXPECT_EQ(clock.advance(now_ns + (i % 20 == 0 ? -1800 : 1800) * kSecondNs, now_ns),
+                ClockVerdict::doubtful);
+    }
+    EXPECT_EQ(clock.advance(now_ns, now_ns + 2'000'000), ClockVerdict::continues);
+    EXPECT_EQ(clock.time_source(), TimeSource::sensor);
+    EXPECT_EQ(clock.to_utc_ns(now_ns), now_ns);
+  }
+  // Nor by two that do not agree.
+  const std::int64_t now_ns = kHourUtcNs + kSecondNs;
+  EXPECT_EQ(clock.advance(now_ns + 100 * kSecondNs, now_ns), ClockVerdict::doubtful);
+  EXPECT_EQ(clock.advance(now_ns + 200 * kSecondNs, now_ns), ClockVerdict::doubtful);
+  EXPECT_EQ(clock.advance(now_ns, now_ns), ClockVerdict::continues);
+}
+
+TEST(SensorClock, BelievesTheSatellitesMoreThanTheReceiversClock) {
+  // The receiver's clock is 5 h 20 min slow: it guesses another hour, and the sensor seems far from UTC.
+  constexpr std::int64_t kSlowNs = 5 * kHourNs + 1200 * kSecondNs;
+  SensorClock clock;
+  const auto packet_at = [&](std::int64_t utc_ns) {
+    const auto counter_us = static_cast<std::uint32_t>(utc_ns % kHourNs / 1000);
+    const std::int64_t receive_utc_ns = utc_ns - kSlowNs + 1'000'000;
+    const std::int64_t sensor_ns = clock.expand_top_of_hour(counter_us, receive_utc_ns);
+    EXPECT_EQ(clock.advance(sensor_ns, receive_utc_ns), ClockVerdict::continues);
+    return clock.to_utc_ns(sensor_ns);
+  };
+  EXPECT_EQ(packet_at(kHourUtcNs) - kHourUtcNs, 1'000'000 - kSlowNs);
+  EXPECT_EQ(clock.time_source(), TimeSource::receive);
+  EXPECT_TRUE(clock.learn_utc(kHourUtcNs + 500'000, kHourUtcNs - kSlowNs + 1'500'000));
+  EXPECT_EQ(packet_at(kHourUtcNs + 1'000'000), kHourUtcNs + 1'000'000);
+  EXPECT_EQ(clock.time_source(), TimeSource::sensor);
+  EXPECT_FALSE(clock.learn_utc(kHourUtcNs + 1'500'000, kHourUtcNs - kSlowNs + 2'500'000)) << "no news";
+
+  SensorClock from_the_start;
+  EXPECT_FALSE(from_the_start.learn_utc(kHourUtcNs, kHourUtcNs - kSlowNs));
+  EXPECT_EQ(from_the_start.expand_top_of_hour(2000, kHourUtcNs - kSlowNs), kHourUtcNs + 2'000'000);
 }
 
 TEST(SensorClock, CountsOnThroughTheHourWhereverTheSensorStands) {
@@ -82,7 +132,7 @@ TEST(SensorClock, CountsOnThroughTheHourWhereverTheSensorStands) {
         (3'590'000'000ULL + static_cast<std::uint64_t>(i) * 1000U) % 3'600'000'000U);
     const std::int64_t receive_ns = kHourUtcNs + 1790 * kSecondNs + i * 1'000'000LL + delay_ns(random);
     const std::int64_t sensor_ns = clock.expand_top_of_hour(counter_us, receive_ns);
-    EXPECT_FALSE(clock.advance(sensor_ns, receive_ns)) << i;
+    EXPECT_EQ(clock.advance(sensor_ns, receive_ns), ClockVerdict::continues) << i;
     if (i > 0) {
       ASSERT_EQ(sensor_ns - last_ns, 1'000'000) << i;
     }
@@ -100,6 +150,7 @@ TEST(SensorClock, IsNotOverthrownByWildTimes) {
     const auto counter_us = static_cast<std::uint32_t>(random() % 3'601'000'000U);
     const std::int64_t sensor_ns = clock.expand_top_of_hour(counter_us, receive_ns);
     static_cast<void>(clock.advance(sensor_ns, receive_ns));
+    if (i % 100 == 0) static_cast<void>(clock.learn_utc(any(random), receive_ns));
     EXPECT_LE(clock.to_utc_ns(sensor_ns), SensorClock::kLatestNs + kHourNs);
   }
 }

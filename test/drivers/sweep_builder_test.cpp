@@ -21,13 +21,14 @@ class OneDegreeSensor {
   void turn(int degrees) {
     for (int i = 0; i < degrees; i += kBlocksAPacket) {
       send();
-      skip(kBlocksAPacket);
+      lose(kBlocksAPacket);
     }
   }
   /// The rotor turns on and nothing arrives.
   void skip(int degrees) {
     degree_ += degrees;
     time_ns_ += degrees * kBlockNs;
+    receive_ns_ += degrees * kBlockNs;
   }
   void lose(int degrees) {
     skip(degrees);
@@ -40,18 +41,32 @@ class OneDegreeSensor {
   SweepPair sweeps{storage};
   std::vector<std::size_t> sizes;  ///< of the sweeps that were handed over
   std::vector<bool> complete;
+  std::vector<DecodeStatus> refused;
+
+  /// A packet from `packets_ago` packets ago, once more or for the first time.
+  void send_late(int packets_ago) {
+    lose(-packets_ago * kBlocksAPacket);
+    send();
+    lose(packets_ago * kBlocksAPacket);
+  }
+  [[nodiscard]] std::int64_t time_ns() const { return time_ns_; }
+  [[nodiscard]] std::int64_t receive_ns() const { return receive_ns_; }
+  void restart_counting() { sequence_ = 0; }
 
  private:
   void send() {
     std::optional<std::uint32_t> sequence;
-    if (counts_packets_) sequence = sequence_++;
+    if (counts_packets_) sequence = sequence_;
     const DecodeStatus place = builder.begin_packet({.first_firing_ns = time_ns_,
-                                                     .receive_utc_ns = time_ns_ + 1'000'000,
+                                                     .receive_utc_ns = receive_ns_,
                                                      .duration_ns = kBlocksAPacket * kBlockNs,
                                                      .turn_ns = kTurnNs,
                                                      .sequence = sequence},
                                                     azimuth(0), sweeps);
-    EXPECT_EQ(place, DecodeStatus::decoded);
+    if (place != DecodeStatus::decoded) {
+      refused.push_back(place);
+      return;
+    }
     for (int block = 0; block < kBlocksAPacket; ++block) {
       const float time_s = builder.begin_block(azimuth(block), time_ns_ + block * kBlockNs, sweeps);
       EXPECT_GE(time_s, 0.0F);
@@ -68,7 +83,8 @@ class OneDegreeSensor {
 
   bool counts_packets_;
   int degree_ = 2;
-  std::int64_t time_ns_ = kStartNs;
+  std::int64_t time_ns_ = kStartNs;  ///< of the sensor
+  std::int64_t receive_ns_ = kStartNs + 1'000'000;
   std::uint32_t sequence_ = 0;
 };
 
@@ -146,10 +162,105 @@ TEST(SweepBuilder, CutsWhenTheSensorsClockIsSet) {
   sensor.turn(360 + 100);
   sensor.set_clock(-kTurnNs / 4);
   sensor.turn(360);
+  EXPECT_EQ(sensor.refused, std::vector{DecodeStatus::wrong_time}) << "the first packet alone is no proof";
   EXPECT_EQ(sensor.complete, (Complete{false, false, false}));
   EXPECT_EQ(sensor.sizes[1], 102U);
+  EXPECT_EQ(sensor.builder.counters().clock_steps, 1U);
   sensor.turn(360);
   EXPECT_EQ(sensor.complete.back(), true);
+}
+
+TEST(SweepBuilder, DropsOnePacketOfAnotherTimeAndKeepsTheSweep) {
+  OneDegreeSensor sensor;
+  sensor.turn(360 + 100);
+  sensor.set_clock(1'800'000'000'000);
+  sensor.turn(4);
+  sensor.set_clock(-1'800'000'000'000);
+  sensor.turn(2 * 360);
+  EXPECT_EQ(sensor.refused, std::vector{DecodeStatus::wrong_time});
+  EXPECT_EQ(sensor.complete, (Complete{false, false, true}));
+  EXPECT_EQ(sensor.sizes, (Sizes{358, 356, 360}));
+  EXPECT_EQ(sensor.builder.counters().clock_steps, 0U);
+  EXPECT_EQ(sensor.builder.counters().lost_packets, 1U);
+}
+
+TEST(SweepBuilder, CountsThePacketsThatAreLost) {
+  for (const bool counts_packets : {false, true}) {
+    OneDegreeSensor sensor(counts_packets);
+    sensor.turn(500);
+    sensor.lose(12);
+    sensor.turn(360);
+    EXPECT_EQ(sensor.builder.counters().lost_packets, 3U) << counts_packets;
+    EXPECT_EQ(sensor.sweeps.completed().lost_packets(), 3U) << counts_packets;
+    EXPECT_FALSE(sensor.sweeps.completed().complete()) << counts_packets;
+  }
+}
+
+TEST(SweepBuilder, DropsAPacketThatComesTwice) {
+  for (const bool counts_packets : {false, true}) {
+    OneDegreeSensor sensor(counts_packets);
+    sensor.turn(360);  // to within two degrees of the cut, and a packet over it
+    sensor.send_late(1);
+    sensor.send_late(5);
+    sensor.turn(2 * 360);
+    EXPECT_EQ(sensor.refused, (std::vector{DecodeStatus::duplicate, DecodeStatus::duplicate}));
+    EXPECT_EQ(sensor.sizes, (Sizes{358, 360, 360}));
+    EXPECT_EQ(sensor.complete, (Complete{false, true, true}));
+    EXPECT_EQ(sensor.builder.counters().lost_packets, 0U);
+    EXPECT_EQ(sensor.builder.counters().restarts, 0U);
+  }
+}
+
+TEST(SweepBuilder, APacketThatIsOvertakenJoinsItsSweep) {
+  for (const bool counts_packets : {false, true}) {
+    OneDegreeSensor sensor(counts_packets);
+    sensor.turn(500);
+    sensor.lose(4);
+    sensor.turn(8);
+    EXPECT_EQ(sensor.builder.counters().lost_packets, 1U);
+    sensor.send_late(3);
+    EXPECT_EQ(sensor.builder.counters().lost_packets, 0U);
+    sensor.turn(2 * 360);
+    EXPECT_TRUE(sensor.refused.empty());
+    EXPECT_EQ(sensor.sizes, (Sizes{358, 360, 360}));
+    EXPECT_EQ(sensor.complete, (Complete{false, true, true}));
+  }
+}
+
+TEST(SweepBuilder, APacketThatIsOvertakenAtTheCutIsTooLate) {
+  for (const bool counts_packets : {false, true}) {
+    OneDegreeSensor sensor(counts_packets);
+    sensor.turn(720 - 4);
+    sensor.lose(4);  // 358 to 1 deg
+    sensor.turn(4);
+    sensor.send_late(2);
+    sensor.turn(2 * 360);
+    EXPECT_EQ(sensor.refused, std::vector{DecodeStatus::late});
+    EXPECT_EQ(sensor.complete, (Complete{false, false, false, true})) << "both turns miss a part of it";
+    EXPECT_EQ(sensor.builder.counters().lost_packets, 1U);
+  }
+}
+
+TEST(SweepBuilder, NoticesThatASensorHasStartedAnew) {
+  OneDegreeSensor sensor(true);
+  sensor.turn(500);
+  sensor.restart_counting();
+  sensor.turn(2 * 360);
+  EXPECT_EQ(sensor.builder.counters().restarts, 1U);
+  EXPECT_EQ(sensor.builder.counters().lost_packets, 0U);
+  EXPECT_EQ(sensor.complete, (Complete{false, false, false, true}));
+}
+
+TEST(SweepBuilder, CutsWhenTheSensorSaysThatUtcIsAnother) {
+  OneDegreeSensor sensor;
+  sensor.turn(500);
+  const std::int64_t hour_ns = 3'600'000'000'000;
+  sensor.builder.learn_utc(sensor.time_ns() + hour_ns, sensor.receive_ns());
+  sensor.set_clock(hour_ns);
+  sensor.turn(2 * 360);
+  EXPECT_TRUE(sensor.refused.empty()) << "it was announced";
+  EXPECT_EQ(sensor.complete, (Complete{false, false, false, true}));
+  EXPECT_EQ(sensor.sweeps.completed().time_source(), TimeSource::sensor);
 }
 
 }  // namespace

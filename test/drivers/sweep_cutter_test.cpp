@@ -56,8 +56,8 @@ TEST(SweepCutter, CutsOnceWhenPacketsAreLostAcrossTheCut) {
 TEST(SweepCutter, TellsPacketsThatTurnTooFar) {
   SweepCutter cutter(0.0);
   EXPECT_FALSE(cutter.advance(100));
-  EXPECT_FALSE(cutter.would_cut_twice(std::array<std::uint16_t, 3>{140, 35990, 10}));
-  EXPECT_TRUE(cutter.would_cut_twice(std::array<std::uint16_t, 4>{20000, 5000, 20000, 5000}));
+  EXPECT_FALSE(cutter.cannot_be(std::array<std::uint16_t, 3>{140, 35990, 10}));
+  EXPECT_TRUE(cutter.cannot_be(std::array<std::uint16_t, 4>{20000, 5000, 20000, 5000}));
   EXPECT_FALSE(cutter.advance(140)) << "asking has not moved it";
 }
 

@@ -102,7 +102,7 @@ struct Decoded {
 Decoded decode(const std::filesystem::path& capture, std::span<const Beam> beams,
                const DecoderOptions& options) {
   const SensorModel& model = *find_sensor_model("pandar64");
-  AnyDecoder decoder = make_decoder(model, options, beams);
+  AnyDecoder decoder = make_decoder(model, options, std::vector<Beam>(beams.begin(), beams.end()));
   std::vector<Point> storage(2 * model.max_points_per_sweep());
   SweepPair sweeps(storage);
   ChannelCutter cutter(beams);

@@ -231,6 +231,12 @@ TEST_F(SimulatedDrive, PacketsThatComeTwiceOrInTheWrongOrderDoNotLoseTheTrack) {
   DisorderedSource source(path("capture.pcap"));
   const ReplayResult result = run_replay(source, pipeline, [](const platform::SweepResult&) {});
   EXPECT_EQ(result.count(ndt::State::lost), 0U);
+  const auto& by_status = pipeline.counters().by_status;
+  EXPECT_GT(by_status[static_cast<std::size_t>(drivers::DecodeStatus::duplicate)], 100U);
+  // Few are overtaken just where the turn ends; those are lost for their sweep, and no other is.
+  EXPECT_LE(pipeline.stream_counters().lost_packets,
+            by_status[static_cast<std::size_t>(drivers::DecodeStatus::late)]);
+  EXPECT_LT(pipeline.stream_counters().lost_packets, 20U);
   const auto truth = platform::read_tum(path("truth.tum"));
   for (const platform::SweepResult& sweep : result.sweeps) {
     const auto there = platform::interpolate(truth, sweep.fix.at.stamp_utc_ns);
