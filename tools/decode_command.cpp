@@ -1,26 +1,21 @@
 // landfix decode: a capture to point clouds, one file a sweep.
-#include <array>
-#include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "drivers/make_decoder.hpp"
-#include "platform/atomic_file.hpp"
 #include "platform/pcap_source.hpp"
-#include "platform/pcd_writer.hpp"
 #include "tools/capture_census.hpp"
 #include "tools/capture_losses.hpp"
 #include "tools/command.hpp"
+#include "tools/decode_report.hpp"
 #include "tools/landfix_commands.hpp"
 #include "tools/sensor_setup.hpp"
+#include "tools/sweep_files.hpp"
 
 namespace landfix::tools {
 namespace {
@@ -29,44 +24,14 @@ using drivers::DecodeStatus;
 using drivers::SensorModel;
 using drivers::Sweep;
 
-enum class Format : std::uint8_t { pcd, csv };
-
 struct Arguments {
   std::string sensor;
   std::string calibration;
   std::string pcap;
   std::string output;
-  Format format = Format::pcd;
+  SweepFormat format = SweepFormat::pcd;
   drivers::DecoderOptions options;
   bool json = false;
-};
-
-struct SweepSummary {
-  std::size_t points = 0;
-  std::size_t overflowed = 0;
-  bool complete = false;
-  drivers::TimeSource time_source{};
-  double first_time_s = 0.0;  ///< Unix
-  double last_time_s = 0.0;
-};
-
-struct Summary {
-  std::array<std::uint64_t, drivers::kDecodeStatusCount> packets{};  ///< by DecodeStatus
-  std::uint64_t elsewhere = 0;                                       ///< packets to other ports
-  drivers::StreamCounters stream;
-  std::vector<SweepSummary> sweeps;
-
-  [[nodiscard]] std::uint64_t of(DecodeStatus status) const {
-    return packets[static_cast<std::size_t>(status)];
-  }
-  [[nodiscard]] std::uint64_t decoded() const { return of(DecodeStatus::decoded); }
-  [[nodiscard]] std::uint64_t rejected() const {
-    std::uint64_t sum = 0;
-    for (std::size_t i = 0; i < packets.size(); ++i) {
-      if (drivers::is_rejected(static_cast<DecodeStatus>(i))) sum += packets[i];
-    }
-    return sum;
-  }
 };
 
 std::string names_of(std::span<const SensorModel* const> models) {
@@ -104,47 +69,19 @@ std::uint16_t port_of(const SensorModel& model, const Arguments& arguments, cons
                                        hint));
 }
 
-void write_csv(const std::filesystem::path& path, std::span<const drivers::Point> points) {
-  fmt::memory_buffer text;
-  fmt::format_to(std::back_inserter(text), "x,y,z,intensity,ring,time\n");
-  for (const drivers::Point& point : points) {
-    fmt::format_to(std::back_inserter(text), "{:.6f},{:.6f},{:.6f},{:g},{},{:.9f}\n", point.x, point.y,
-                   point.z, point.intensity, point.ring, point.time_s);
-  }
-  platform::AtomicFile file(path);
-  file.write(std::string_view(text.data(), text.size()));
-  file.commit();
-}
-
-class SweepWriter {
- public:
-  SweepWriter(std::filesystem::path folder, Format format) : folder_(std::move(folder)), format_(format) {
-    std::filesystem::create_directories(folder_);
-  }
-
-  void write(const Sweep& sweep, std::vector<SweepSummary>& sweeps) const {
-    const std::string name = fmt::format("{:04}.{}", sweeps.size(), format_ == Format::pcd ? "pcd" : "csv");
-    if (format_ == Format::pcd) {
-      platform::write_pcd(folder_ / name, platform::kPointMembers, sweep.points());
-    } else {
-      write_csv(folder_ / name, sweep.points());
-    }
-    sweeps.push_back({.points = sweep.points().size(),
-                      .overflowed = sweep.overflowed(),
-                      .complete = sweep.complete(),
-                      .time_source = sweep.time_source(),
-                      .first_time_s = static_cast<double>(sweep.start_utc_ns()) * 1e-9,
-                      .last_time_s = static_cast<double>(sweep.end_utc_ns()) * 1e-9});
-  }
-
- private:
-  std::filesystem::path folder_;
-  Format format_;
-};
-
-Summary decode_all(platform::PcapSource& source, std::uint16_t port, std::uint16_t telemetry_port,
-                   drivers::AnyDecoder& decoder, drivers::SweepPair& sweeps, const SweepWriter& writer) {
-  Summary summary;
+DecodeSummary decode_all(platform::PcapSource& source, std::uint16_t port, std::uint16_t telemetry_port,
+                         drivers::AnyDecoder& decoder, drivers::SweepPair& sweeps, SweepFiles& files) {
+  DecodeSummary summary;
+  const auto keep = [&](const Sweep& sweep) {
+    files.write(sweep);
+    summary.sweeps.push_back({.points = sweep.points().size(),
+                              .overflowed = sweep.overflowed(),
+                              .lost_packets = sweep.lost_packets(),
+                              .complete = sweep.complete(),
+                              .time_source = sweep.time_source(),
+                              .first_time_s = static_cast<double>(sweep.start_utc_ns()) * 1e-9,
+                              .last_time_s = static_cast<double>(sweep.end_utc_ns()) * 1e-9});
+  };
   platform::UdpPacket packet;
   auto status = platform::ReadStatus::end;
   while ((status = source.next(packet)) == platform::ReadStatus::packet) {
@@ -157,10 +94,10 @@ Summary decode_all(platform::PcapSource& source, std::uint16_t port, std::uint16
         decoder.decode({.payload = packet.payload, .receive_utc_ns = packet.receive_utc_ns}, sweeps);
     ++summary.packets[static_cast<std::size_t>(result.status)];
     if (!result.sweep_completed) continue;
-    writer.write(sweeps.completed(), summary.sweeps);
+    keep(sweeps.completed());
     show_progress(fmt::format("{:3.0f} %, {} sweeps", source.percent_read(), summary.sweeps.size()));
   }
-  if (decoder.flush(sweeps)) writer.write(sweeps.completed(), summary.sweeps);
+  if (decoder.flush(sweeps)) keep(sweeps.completed());
   show_progress("");
   summary.stream = decoder.counters();
   if (status == platform::ReadStatus::truncated) {
@@ -170,56 +107,16 @@ Summary decode_all(platform::PcapSource& source, std::uint16_t port, std::uint16
   return summary;
 }
 
-void print_json(const SensorModel& model, const Summary& summary) {
-  nlohmann::json sweeps = nlohmann::json::array();
-  for (const SweepSummary& sweep : summary.sweeps) {
-    sweeps.push_back({{"index", sweeps.size()},
-                      {"points", sweep.points},
-                      {"points_dropped", sweep.overflowed},
-                      {"complete", sweep.complete},
-                      {"time_source", to_string(sweep.time_source)},
-                      {"first_time", sweep.first_time_s},
-                      {"last_time", sweep.last_time_s}});
-  }
-  nlohmann::json reasons = nlohmann::json::object();
-  for (std::size_t i = 0; i < summary.packets.size(); ++i) {
-    if (summary.packets[i] == 0 || !drivers::is_rejected(static_cast<DecodeStatus>(i))) continue;
-    reasons[std::string(drivers::to_string(static_cast<DecodeStatus>(i)))] = summary.packets[i];
-  }
-  const nlohmann::json object{{"sensor", model.name},
-                              {"packets",
-                               {{"total", summary.decoded() + summary.rejected()},
-                                {"decoded", summary.decoded()},
-                                {"rejected", summary.rejected()},
-                                {"reasons", reasons},
-                                {"telemetry", summary.of(DecodeStatus::telemetry)},
-                                {"lost", summary.stream.lost_packets},
-                                {"other_ports", summary.elsewhere}}},
-                              {"clock_steps", summary.stream.clock_steps},
-                              {"restarts", summary.stream.restarts},
-                              {"sweeps", sweeps}};
-  fmt::print("{}\n", object.dump(2));
-}
-
-void print_text(const SensorModel& model, const Summary& summary, const std::string& folder) {
-  fmt::print("{}: {} packets decoded, {} rejected, {} lost, {} of telemetry, {} to other ports\n",
-             model.display_name, summary.decoded(), summary.rejected(), summary.stream.lost_packets,
-             summary.of(DecodeStatus::telemetry), summary.elsewhere);
-  for (std::size_t i = 0; i < summary.packets.size(); ++i) {
-    if (summary.packets[i] == 0 || !drivers::is_rejected(static_cast<DecodeStatus>(i))) continue;
-    fmt::print("  rejected {}: {}\n", summary.packets[i], drivers::to_string(static_cast<DecodeStatus>(i)));
-  }
-  if (summary.stream.clock_steps != 0) fmt::print("  {} steps of a clock\n", summary.stream.clock_steps);
-  if (summary.stream.restarts != 0) fmt::print("  {} restarts of the sensor\n", summary.stream.restarts);
-  std::size_t complete = 0;
-  for (std::size_t i = 0; i < summary.sweeps.size(); ++i) {
-    const SweepSummary& sweep = summary.sweeps[i];
-    fmt::print("  {:04}  {:>7} points  {:.6f} to {:.6f}  {} time{}{}\n", i, sweep.points, sweep.first_time_s,
-               sweep.last_time_s, to_string(sweep.time_source), sweep.complete ? "" : "  partial",
-               sweep.overflowed == 0 ? "" : fmt::format("  {} points did not fit", sweep.overflowed));
-    complete += sweep.complete ? 1 : 0;
-  }
-  fmt::print("{} sweeps, {} complete, in {}\n", summary.sweeps.size(), complete, folder);
+void refuse_if_nothing_was_decoded(const Arguments& arguments, const SensorModel& model,
+                                   const DecodeSummary& summary) {
+  if (summary.decoded() != 0) return;
+  const std::string hint =
+      summary.of(DecodeStatus::uncalibrated) != 0
+          ? fmt::format("; give the unit's --calibration, or a longer capture with its packets to port {}",
+                        model.telemetry_port != 0 ? model.telemetry_port : model.data_port)
+          : "";
+  throw std::runtime_error(fmt::format("{}: none of {} packets of {} could be decoded: {}{}", arguments.pcap,
+                                       summary.rejected(), model.name, reasons(summary), hint));
 }
 
 void decode(const Arguments& arguments) {
@@ -236,15 +133,20 @@ void decode(const Arguments& arguments) {
   drivers::AnyDecoder decoder = drivers::make_decoder(model, arguments.options, calibration);
   std::vector<drivers::Point> storage(2 * model.max_points_per_sweep());
   drivers::SweepPair sweeps(storage);
-  const SweepWriter writer(arguments.output, arguments.format);
-  const Summary summary = decode_all(source, port, model.telemetry_port, decoder, sweeps, writer);
+  SweepFiles files(arguments.output, arguments.format);
+  const DecodeSummary summary = decode_all(source, port, model.telemetry_port, decoder, sweeps, files);
+  refuse_if_nothing_was_decoded(arguments, model, summary);
+  if (const std::size_t older = files.left_over(); older != 0) {
+    fmt::print(stderr, "{} also holds {} sweeps of an earlier run, behind the last of this one\n",
+               arguments.output, older);
+  }
   arguments.json ? print_json(model, summary) : print_text(model, summary, arguments.output);
 }
 
 }  // namespace
 
 void add_decode_command(CLI::App& app) {
-  const std::map<std::string, Format> formats{{"pcd", Format::pcd}, {"csv", Format::csv}};
+  const std::map<std::string, SweepFormat> formats{{"pcd", SweepFormat::pcd}, {"csv", SweepFormat::csv}};
   const auto arguments = std::make_shared<Arguments>();
   CLI::App& command = *app.add_subcommand("decode", "point clouds from a capture, one file a sweep");
   command.add_option("--sensor", arguments->sensor, "its name (landfix sensors); found out where not given")

@@ -1,0 +1,52 @@
+// What came of decoding a capture, for a person and for a program.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "drivers/decoder.hpp"
+#include "drivers/sensor_model.hpp"
+
+namespace landfix::tools {
+
+struct SweepSummary {
+  std::size_t points = 0;
+  std::size_t overflowed = 0;
+  std::uint32_t lost_packets = 0;
+  bool complete = false;
+  drivers::TimeSource time_source{};
+  double first_time_s = 0.0;  ///< Unix
+  double last_time_s = 0.0;
+};
+
+struct DecodeSummary {
+  std::array<std::uint64_t, drivers::kDecodeStatusCount> packets{};  ///< by drivers::DecodeStatus
+  std::uint64_t elsewhere = 0;                                       ///< packets to other ports
+  drivers::StreamCounters stream;
+  std::vector<SweepSummary> sweeps;
+
+  [[nodiscard]] std::uint64_t of(drivers::DecodeStatus status) const {
+    return packets[static_cast<std::size_t>(status)];
+  }
+  [[nodiscard]] std::uint64_t decoded() const { return of(drivers::DecodeStatus::decoded); }
+  /// Data packets that gave no points.
+  [[nodiscard]] std::uint64_t rejected() const {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+      if (drivers::is_rejected(static_cast<drivers::DecodeStatus>(i))) sum += packets[i];
+    }
+    return sum;
+  }
+};
+
+/// "12 x its sweep has been handed over already, ...": why packets were rejected.
+[[nodiscard]] std::string reasons(const DecodeSummary& summary);
+
+/// As one JSON object on stdout.
+void print_json(const drivers::SensorModel& model, const DecodeSummary& summary);
+/// As lines of text on stdout.
+void print_text(const drivers::SensorModel& model, const DecodeSummary& summary, const std::string& folder);
+
+}  // namespace landfix::tools
