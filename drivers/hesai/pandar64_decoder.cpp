@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivers/hesai/civil_time.hpp"
+#include "drivers/civil_time.hpp"
 
 namespace landfix::drivers::hesai {
 namespace {

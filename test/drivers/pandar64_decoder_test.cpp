@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "drivers/civil_time.hpp"
 #include "drivers/decoder_bench.hpp"
-#include "drivers/hesai/civil_time.hpp"
 #include "support/synthetic_packets.hpp"
 
 namespace landfix::drivers {
@@ -165,7 +165,7 @@ TEST(Pandar64Decoder, CountsYearsFrom2000OrFrom1900) {
     packet.set_date({year, 3, 1, 0, 0, 0});
     packet.set_return(0, 0, 1000);
     const std::int64_t utc_ns =
-        *hesai::unix_seconds({.year = expected, .month = 3, .day = 1}) * 1'000'000'000;
+        *unix_seconds({.year = expected, .month = 3, .day = 1}) * 1'000'000'000;
     ASSERT_EQ(bench.decode(packet.bytes(), utc_ns).status, DecodeStatus::decoded);
     ASSERT_TRUE(bench.flush());
     EXPECT_EQ(bench.swept().at(0).time_source, TimeSource::sensor) << year;
@@ -173,7 +173,6 @@ TEST(Pandar64Decoder, CountsYearsFrom2000OrFrom1900) {
 }
 
 TEST(CivilTime, KnowsTheCalendar) {
-  using hesai::unix_seconds;
   EXPECT_EQ(unix_seconds({.year = 2000, .month = 1, .day = 1}), 946'684'800);
   EXPECT_EQ(unix_seconds({.year = 2024, .month = 12, .day = 31, .hour = 23, .minute = 59, .second = 59}),
             1'735'689'599);

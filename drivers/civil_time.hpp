@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace landfix::drivers::hesai {
+namespace landfix::drivers {
 
 /// Date and time as six bytes of a packet hold them.
 struct CivilTime {
@@ -39,4 +39,4 @@ struct CivilTime {
 static_assert(days_from_civil(1970, 1, 1) == 0);
 static_assert(unix_seconds({.year = 2000, .month = 2, .day = 29}) == 951'782'400);
 
-}  // namespace landfix::drivers::hesai
+}  // namespace landfix::drivers
