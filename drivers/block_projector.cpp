@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "drivers/big_endian.hpp"
 #include "drivers/little_endian.hpp"
 
 namespace landfix::drivers {
@@ -17,6 +18,18 @@ std::uint16_t clamped_raw(double raw) noexcept {
   return static_cast<std::uint16_t>(std::clamp(raw, 0.0, 65535.0));
 }
 
+/// The ranges of a block's slots, with the choice of the order outside the loop.
+void load_ranges(const std::byte* slots, ByteOrder order, std::span<std::uint16_t> range_raw) noexcept {
+  const std::size_t count = range_raw.size();
+  if (order == ByteOrder::big) {
+    for (std::size_t i = 0; i < count; ++i)
+      range_raw[i] = load_big_endian<std::uint16_t>(slots + i * kSlotBytes);
+  } else {
+    for (std::size_t i = 0; i < count; ++i)
+      range_raw[i] = load_little_endian<std::uint16_t>(slots + i * kSlotBytes);
+  }
+}
+
 }  // namespace
 
 RangeGate::RangeGate(double unit_m, double min_range_m, double max_range_m) noexcept
@@ -24,8 +37,9 @@ RangeGate::RangeGate(double unit_m, double min_range_m, double max_range_m) noex
     : least_raw_(std::max<std::uint16_t>(1, clamped_raw(std::ceil(min_range_m / unit_m - 1e-6)))),
       most_raw_(clamped_raw(std::floor(max_range_m / unit_m + 1e-6))) {}
 
-BlockProjector::BlockProjector(std::span<const FiringSlot> slots, RangeFrom range_from) noexcept
-    : slot_count_(std::min(slots.size(), kMaxSlots)) {
+BlockProjector::BlockProjector(std::span<const FiringSlot> slots, RangeFrom range_from,
+                               ByteOrder byte_order) noexcept
+    : slot_count_(std::min(slots.size(), kMaxSlots)), byte_order_(byte_order) {
   for (std::size_t i = 0; i < slot_count_; ++i) {
     const FiringSlot& slot = slots[i];
     const double elevation_rad = slot.elevation_deg * kRadPerDeg;
@@ -67,13 +81,12 @@ void BlockProjector::set_turn_rate(double rad_per_s) noexcept {
 void BlockProjector::project(const Block& block, const RangeGate& gate, Sweep& sweep) const noexcept {
   const std::size_t count = slot_count_;
   PerSlot<std::uint16_t> range_raw;
-  for (std::size_t i = 0; i < count; ++i) {
-    range_raw[i] = load_little_endian<std::uint16_t>(block.slots + i * kSlotBytes);
-  }
+  load_ranges(block.slots, byte_order_, std::span(range_raw).first(count));
   if (block.duplicates != nullptr) {
+    PerSlot<std::uint16_t> other_raw;
+    load_ranges(block.duplicates, byte_order_, std::span(other_raw).first(count));
     for (std::size_t i = 0; i < count; ++i) {
-      const auto other_raw = load_little_endian<std::uint16_t>(block.duplicates + i * kSlotBytes);
-      if (other_raw == range_raw[i]) range_raw[i] = 0;
+      if (other_raw[i] == range_raw[i]) range_raw[i] = 0;
     }
   }
 

@@ -36,6 +36,9 @@ enum class RangeFrom : std::uint8_t {
   sensor_centre,  ///< from the origin of the sensor frame, although the beam starts elsewhere
 };
 
+/// Of the ranges on the wire.
+enum class ByteOrder : std::uint8_t { little, big };
+
 /// Returns that are kept. The bounds are in the wire's unit, so that one comparison decides, zero included.
 class RangeGate {
  public:
@@ -66,7 +69,8 @@ inline constexpr std::size_t kMaxSlots = 64;
 class BlockProjector {
  public:
   /// `slots`: at most kMaxSlots, in the order of the wire.
-  BlockProjector(std::span<const FiringSlot> slots, RangeFrom range_from) noexcept;
+  BlockProjector(std::span<const FiringSlot> slots, RangeFrom range_from,
+                 ByteOrder byte_order = ByteOrder::little) noexcept;
 
   /// Speed of rotation, clockwise. Cheap where it has changed by less than one part in 10,000.
   void set_turn_rate(double rad_per_s) noexcept;
@@ -79,6 +83,7 @@ class BlockProjector {
   using PerSlot = std::array<T, kMaxSlots>;
 
   std::size_t slot_count_;
+  ByteOrder byte_order_;
   double turn_rate_rad_per_s_ = 0.0;
 
   // Of the beam, at rest.
