@@ -4,6 +4,7 @@
 #include <string>
 
 #include "drivers/hesai/calibration.hpp"
+#include "drivers/robosense/calibration.hpp"
 
 namespace landfix::drivers {
 
@@ -12,6 +13,10 @@ Calibration parse_calibration(const SensorModel& model, std::span<const std::byt
   switch (model.format) {
     case PacketFormat::hesai_pandar64:
       return hesai::parse_calibration(file, name, model.beams);
+    case PacketFormat::robosense_rs32:
+    case PacketFormat::robosense_rs16:
+    case PacketFormat::robosense_helios16p:
+      return robosense::parse_calibration(file, name, model.beam_count);
     case PacketFormat::velodyne_vlp16:
       break;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 namespace landfix::drivers {
 
@@ -10,11 +11,15 @@ struct DecoderOptions {
   double min_range_m = 0.0;
   double max_range_m = std::numeric_limits<double>::infinity();
 
+  /// RS-LiDAR-32: 0.005, or 0.01 for the firmware of 2018. Nothing: as the firmware's version says, which is
+  /// not certain for every unit of 2018.
+  std::optional<double> range_unit_m{};
+
   // To compare with clouds that leave them out.
   bool firing_time_azimuth =
       true;                      ///< turn each beam on by the time between its firing and the block's azimuth
   bool vertical_offsets = true;  ///< Velodyne: heights of the beams' origins
-  bool optical_centre = true;    ///< Hesai: the beams start beside the axis of rotation
+  bool optical_centre = true;    ///< Hesai, RoboSense: the beams start beside the axis of rotation
 };
 
 }  // namespace landfix::drivers

@@ -7,11 +7,18 @@
 namespace landfix::drivers {
 namespace {
 
-void check(const DecoderOptions& options) {
+void check(const SensorModel& model, const DecoderOptions& options) {
   if (!std::isfinite(options.cut_deg))
     throw std::runtime_error("cut_deg is not a number: give an angle in degrees");
   if (!(options.min_range_m >= 0.0 && options.min_range_m < options.max_range_m)) {
     throw std::runtime_error("min_range_m must be at least 0 and less than max_range_m");
+  }
+  if (!options.range_unit_m) return;
+  if (model.format != PacketFormat::robosense_rs32) {
+    throw std::runtime_error("range_unit_m is for rs32 alone: leave it out for " + std::string(model.name));
+  }
+  if (*options.range_unit_m != 0.005 && *options.range_unit_m != 0.01) {
+    throw std::runtime_error("range_unit_m is 0.005 or 0.01: leave it out if the firmware is not from 2018");
   }
 }
 
@@ -28,11 +35,29 @@ std::span<const Beam, N> beams_of(const SensorModel& model, const Calibration& c
   return beams.first<N>();
 }
 
+const robosense::Description& robosense_description(PacketFormat format) {
+  if (format == PacketFormat::robosense_rs32) return robosense::kRs32;
+  return format == PacketFormat::robosense_rs16 ? robosense::kRs16 : robosense::kHelios16p;
+}
+
+AnyDecoder make_robosense(const SensorModel& model, const DecoderOptions& options,
+                          const Calibration& calibration) {
+  const robosense::Description& description = robosense_description(model.format);
+  const auto* const unit = std::get_if<std::vector<Beam>>(&calibration);
+  const auto beams = unit != nullptr ? std::span<const Beam>(*unit) : std::span<const Beam>();
+  if (unit != nullptr && beams.size() != description.lasers) {
+    throw std::runtime_error(std::string(model.name) + " has " + std::to_string(description.lasers) +
+                             " beams, its calibration " + std::to_string(beams.size()) +
+                             ": is it another sensor's?");
+  }
+  return AnyDecoder(robosense::Decoder(description, beams, options));
+}
+
 }  // namespace
 
 AnyDecoder make_decoder(const SensorModel& model, const DecoderOptions& options,
                         const Calibration& calibration) {
-  check(options);
+  check(model, options);
   switch (model.format) {
     case PacketFormat::velodyne_vlp16:
       return AnyDecoder(velodyne::Vlp16Decoder(beams_of<velodyne::kVlp16Lasers>(model, calibration),
@@ -40,6 +65,10 @@ AnyDecoder make_decoder(const SensorModel& model, const DecoderOptions& options,
     case PacketFormat::hesai_pandar64:
       return AnyDecoder(
           hesai::Pandar64Decoder(beams_of<hesai::kPandar64Lasers>(model, calibration), options));
+    case PacketFormat::robosense_rs32:
+    case PacketFormat::robosense_rs16:
+    case PacketFormat::robosense_helios16p:
+      return make_robosense(model, options, calibration);
   }
   throw std::runtime_error(std::string(model.name) + ": its packet format has no decoder");
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "drivers/hesai/models.hpp"
+#include "drivers/robosense/models.hpp"
 #include "drivers/velodyne/models.hpp"
 
 namespace landfix::drivers {
@@ -16,7 +17,7 @@ constexpr auto concatenate(const std::array<SensorModel, Sizes>&... parts) noexc
   return all;
 }
 
-constexpr auto kModels = concatenate(velodyne::kModels, hesai::kModels);
+constexpr auto kModels = concatenate(velodyne::kModels, hesai::kModels, robosense::kModels);
 
 }  // namespace
 

@@ -13,7 +13,13 @@
 namespace landfix::drivers {
 
 /// Which decoder reads a sensor's packets.
-enum class PacketFormat : std::uint8_t { velodyne_vlp16, hesai_pandar64 };
+enum class PacketFormat : std::uint8_t {
+  velodyne_vlp16,
+  hesai_pandar64,
+  robosense_rs32,
+  robosense_rs16,
+  robosense_helios16p,
+};
 
 /// Where the beams of a unit come from.
 enum class CalibrationUse : std::uint8_t {

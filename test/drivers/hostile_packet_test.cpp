@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "drivers/decoder_bench.hpp"
+#include "support/robosense_packets.hpp"
 #include "support/synthetic_packets.hpp"
 
 namespace landfix::drivers {
@@ -16,12 +17,20 @@ namespace {
 
 using test::DecoderBench;
 
+bool is_robosense(std::string_view model) { return find_sensor_model(model)->vendor == "RoboSense"; }
+
 /// A sound packet of each model, full of returns.
 std::vector<std::byte> sound_packet(std::string_view model) {
   if (model == "pandar64") {
     test::Pandar64Packet packet(0x39, 6, 7);
     packet.set_azimuths(35970, 20, 2);
     for (std::size_t slot = 0; slot < 64; ++slot) packet.set_return(1, slot, 500);
+    return {packet.bytes().begin(), packet.bytes().end()};
+  }
+  if (is_robosense(model)) {
+    test::RobosensePacket packet(model);
+    packet.set_azimuths(35970, 20, model == "rs32" ? 2 : 1);
+    for (std::size_t slot = 0; slot < 32; ++slot) packet.set_return(1, slot, 500);
     return {packet.bytes().begin(), packet.bytes().end()};
   }
   test::VelodynePacket packet(model == "vlp16" ? 0x22 : 0x24, 0x39);
@@ -32,6 +41,15 @@ std::vector<std::byte> sound_packet(std::string_view model) {
 
 class HostilePacket : public testing::TestWithParam<const char*> {
  protected:
+  /// Calibrated by the unit's own packet, where it brings it.
+  static DecoderBench bench(std::size_t capacity = 100'000) {
+    DecoderBench bench(GetParam(), {}, capacity);
+    if (is_robosense(GetParam())) {
+      EXPECT_EQ(bench.decode(test::robosense_unit(GetParam()).bytes()).status, DecodeStatus::telemetry);
+    }
+    return bench;
+  }
+
   static void expect_sane(DecoderBench& bench) {
     for (const Point& point : bench.points()) {
       ASSERT_TRUE(std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z));
@@ -44,7 +62,7 @@ class HostilePacket : public testing::TestWithParam<const char*> {
 TEST_P(HostilePacket, EveryOtherLengthIsRefused) {
   const auto sound = sound_packet(GetParam());
   const SensorModel& model = *find_sensor_model(GetParam());
-  DecoderBench bench(GetParam());
+  DecoderBench bench = HostilePacket::bench();
   for (std::size_t size = 0; size <= sound.size() + 8; ++size) {
     std::vector<std::byte> payload(size);  // its own block of memory: a sanitizer sees a read beyond it
     std::copy_n(sound.begin(), std::min(size, sound.size()), payload.begin());
@@ -60,7 +78,7 @@ TEST_P(HostilePacket, EveryOtherLengthIsRefused) {
 
 TEST_P(HostilePacket, RandomBytesOfTheRightSizeAreRefused) {
   std::vector<std::byte> payload(sound_packet(GetParam()).size());
-  DecoderBench bench(GetParam());
+  DecoderBench bench = HostilePacket::bench();
   std::mt19937_64 random(1);
   for (int i = 0; i < 100'000; ++i) {
     for (std::size_t at = 0; at + 8 <= payload.size(); at += 8) {
@@ -82,7 +100,7 @@ TEST_P(HostilePacket, FlippedBitsAndWildReceiveTimesDoNoHarm) {
                                                        std::numeric_limits<std::int64_t>::max());
   int decoded = 0;
   for (int i = 0; i < 20'000; ++i) {
-    if (i % 3 == 0) bench.emplace(GetParam(), DecoderOptions{}, 4000);
+    if (i % 3 == 0) bench.emplace(HostilePacket::bench(4000));
     auto payload = sound;
     for (int flips = 0; flips < 1 + i % 4; ++flips) {
       const std::size_t bit = any_bit(random);
@@ -96,7 +114,7 @@ TEST_P(HostilePacket, FlippedBitsAndWildReceiveTimesDoNoHarm) {
 }
 
 TEST_P(HostilePacket, AFullSweepCountsWhatDoesNotFit) {
-  DecoderBench bench(GetParam(), {}, 10);
+  DecoderBench bench = HostilePacket::bench(10);
   ASSERT_EQ(bench.decode(sound_packet(GetParam())).status, DecodeStatus::decoded);
   ASSERT_TRUE(bench.swept().empty() ? bench.flush() : true);
   const auto& sweep = bench.swept().at(0);
@@ -105,7 +123,8 @@ TEST_P(HostilePacket, AFullSweepCountsWhatDoesNotFit) {
   EXPECT_FALSE(sweep.complete);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryModel, HostilePacket, testing::Values("vlp16", "vlp16hires", "pandar64"),
+INSTANTIATE_TEST_SUITE_P(EveryModel, HostilePacket,
+                         testing::Values("vlp16", "vlp16hires", "pandar64", "rs32", "rs16", "helios16p"),
                          [](const auto& model) { return std::string(model.param); });
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace {
 
 TEST(SensorModel, RingsRankTheElevationsOfEveryTable) {
   for (const SensorModel& model : sensor_models()) {
+    if (model.beams.empty()) continue;  // every unit has its own
     std::vector<double> by_ring(model.beams.size(), 1e9);
     for (const Beam& beam : model.beams) by_ring.at(beam.ring) = beam.elevation_deg;
     EXPECT_TRUE(std::is_sorted(by_ring.begin(), by_ring.end())) << model.name;
