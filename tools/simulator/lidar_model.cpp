@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "tools/simulator/robosense_model.hpp"
 #include "tools/simulator/vlp16_model.hpp"
 
 namespace landfix::tools::simulator {
@@ -22,6 +23,9 @@ struct Entry {
 constexpr std::array kModels{
     Entry{"vlp16", [] { return make_vlp16(Vlp16Variant::puck); }},
     Entry{"vlp16hires", [] { return make_vlp16(Vlp16Variant::hi_res); }},
+    Entry{"rs32", [] { return make_robosense(RobosenseSensor::rs32); }},
+    Entry{"rs16", [] { return make_robosense(RobosenseSensor::rs16); }},
+    Entry{"helios16p", [] { return make_robosense(RobosenseSensor::helios16p); }},
 };
 
 }  // namespace
