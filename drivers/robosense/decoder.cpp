@@ -176,8 +176,8 @@ DecodeResult Decoder::decode(const Packet& packet, SweepPair& sweeps) noexcept {
   DataHeader header;
   const DecodeStatus status = read_data_header(*model_, payload, header);
   if (status != DecodeStatus::decoded) return {.status = status};
-  if (!fits_range_unit(payload)) return {.status = DecodeStatus::wrong_header};
   if (!calibrated_) return {.status = DecodeStatus::uncalibrated};
+  if (!fits_range_unit(payload)) return {.status = DecodeStatus::wrong_header};
 
   if (builder_.cannot_be(header.azimuth_centideg)) return {.status = DecodeStatus::wrong_azimuth};
   speed_.update(header.azimuth_centideg[0], header.first_firing_ns);

@@ -17,7 +17,7 @@ using landfix::drivers::SensorModel;
 using landfix::drivers::SweepPair;
 using landfix::test::RobosensePacket;
 
-constexpr std::size_t kRecordsAPacket = 12 * 32;
+constexpr std::size_t kRecordsAPacket = 384;  // 12 blocks of 32
 
 struct Recording {
   std::vector<std::vector<std::byte>> packets;
@@ -45,7 +45,7 @@ Recording record(const char* model, std::size_t lasers, double period_us, std::s
     for (std::size_t block = 0; block < 12; ++block) {
       for (std::size_t slot = 0; slot < 32; ++slot) {
         const bool second = returns == 2 && (lasers == 32 ? block % 2 == 1 : slot >= 16);
-        const std::size_t firing = i * 12 + (lasers == 32 ? block / blocks_a_firing : block);
+        const std::size_t firing = std::size_t{i} * 12 + (lasers == 32 ? block / blocks_a_firing : block);
         packet.set_return(block, slot, range_raw(slot % lasers, firing, second ? 1 : 0), 10);
       }
     }

@@ -164,8 +164,7 @@ TEST(Pandar64Decoder, CountsYearsFrom2000OrFrom1900) {
     packet.set_azimuths(1000, 20);
     packet.set_date({year, 3, 1, 0, 0, 0});
     packet.set_return(0, 0, 1000);
-    const std::int64_t utc_ns =
-        *unix_seconds({.year = expected, .month = 3, .day = 1}) * 1'000'000'000;
+    const std::int64_t utc_ns = *unix_seconds({.year = expected, .month = 3, .day = 1}) * 1'000'000'000;
     ASSERT_EQ(bench.decode(packet.bytes(), utc_ns).status, DecodeStatus::decoded);
     ASSERT_TRUE(bench.flush());
     EXPECT_EQ(bench.swept().at(0).time_source, TimeSource::sensor) << year;

@@ -18,7 +18,9 @@ using test::RobosensePacket;
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr std::int64_t kReceivedNs = RobosensePacket::kTimeUtcNs + 1'000'000;
 
-double range_of(const Point& point) { return std::hypot(point.x, point.y, point.z); }
+double range_of(const Point& point) {
+  return std::hypot(static_cast<double>(point.x), static_cast<double>(point.y), static_cast<double>(point.z));
+}
 double azimuth_deg(const Point& point) {
   return std::fmod(
       360.0 - std::atan2(static_cast<double>(point.y), static_cast<double>(point.x)) * kDegPerRad, 360.0);
@@ -118,11 +120,12 @@ TEST(RobosenseDecoder, TimesFiringsAsTheManualIncludingItsOddity) {
     EXPECT_EQ(sweep.start_utc_ns, RobosensePacket::kTimeUtcNs + 123'456'000);
     EXPECT_EQ(sweep.time_source, TimeSource::sensor);
     ASSERT_EQ(sweep.points.size(), 6U);
-    const double before_us = static_cast<double>(10 / returns) * 55.52;
+    const std::size_t firings_before = 10 / returns;
+    const double before_us = static_cast<double>(firings_before) * 55.52;
     const double expected_us[] = {0.0, 2.88, 40.32, 44.64, 1.44, 46.08};
     for (std::size_t i = 0; i < 6; ++i) {
       EXPECT_NEAR(1e6 * static_cast<double>(sweep.points[i].time_s), before_us + expected_us[i], 1e-3) << i;
-      const double turned_deg = 0.2 * (static_cast<double>(10 / returns) + expected_us[i] / 55.52);
+      const double turned_deg = 0.2 * (before_us + expected_us[i]) / 55.52;
       const int slots[] = {0, 1, 14, 15, 16, 31};
       const double offset_deg = test::kRs32AnglesMilliDeg[static_cast<std::size_t>(slots[i])][1] * 1e-3;
       EXPECT_NEAR(azimuth_deg(sweep.points[i]), 90.0 + turned_deg + offset_deg, 2e-5) << i;

@@ -60,7 +60,7 @@ TEST(RobosenseDeviceInfo, SeesThatAUnitIsNotProgrammed) {
                                                                          : kHelios16p;
     EXPECT_FALSE(read(description, RobosenseDeviceInfo()).angles) << model << ": zeros";
     RobosenseDeviceInfo erased = test::robosense_unit(model);
-    const std::size_t first = description.angles.vertical_at + 3 * 5;
+    const std::size_t first = description.angles.vertical_at + 15;  // the sixth
     for (std::size_t at = first; at < first + 3; ++at) erased.set_byte(at, 0xFF);
     EXPECT_FALSE(read(description, erased).angles) << model << ": one laser is erased";
   }

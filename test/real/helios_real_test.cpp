@@ -62,7 +62,7 @@ struct DecodedSweep {
 
 template <class AnyOrOne>
 std::vector<DecodedSweep> decode(AnyOrOne decoder, std::span<const RecordedPacket> packets) {
-  std::vector<Point> storage(2 * 150'000);
+  std::vector<Point> storage(300'000);
   SweepPair sweeps(storage);
   std::vector<DecodedSweep> all;
   const auto keep = [&] {

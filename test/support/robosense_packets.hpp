@@ -60,7 +60,8 @@ class RobosensePacket {
   /// Azimuths from `first` on, `step` a firing; a firing is `blocks` blocks.
   void set_azimuths(unsigned first_centideg, double step_centideg, std::size_t blocks = 1) {
     for (std::size_t block = 0; block < 12; ++block) {
-      const double turned = step_centideg * static_cast<double>(block / blocks);
+      const std::size_t firing = block / blocks;
+      const double turned = step_centideg * static_cast<double>(firing);
       set_azimuth(block, (first_centideg + static_cast<unsigned>(turned)) % 36000U);
     }
   }

@@ -27,11 +27,8 @@ struct Resolution {
   double time_s;       ///< one step of the sensor's clock
 };
 constexpr Resolution kResolutions[] = {
-    {"vlp16", 0.002, 0.0075, 1e-6},
-    {"vlp16hires", 0.002, 0.0075, 1e-6},
-    {"rs32", 0.005, 0.0075, 1e-6},
-    {"rs16", 0.005, 0.0075, 1e-6},
-    {"helios16p", 0.0025, 0.0075, 1e-6},
+    {"vlp16", 0.002, 0.0075, 1e-6}, {"vlp16hires", 0.002, 0.0075, 1e-6}, {"rs32", 0.005, 0.0075, 1e-6},
+    {"rs16", 0.005, 0.0075, 1e-6},  {"helios16p", 0.0025, 0.0075, 1e-6},
 };
 
 const Resolution& resolution_of(std::string_view name) {
