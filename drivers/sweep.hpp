@@ -50,6 +50,23 @@ class Sweep {
     last_time_s_ = std::max(last_time_s_, point.time_s);
   }
 
+  /// Where the next points go, for a decoder that writes many at once and then says how many of them count,
+  /// and the latest of their times. What is not written here goes through `push`, which counts what does not
+  /// fit.
+  [[nodiscard]] std::span<Point> unused() noexcept { return storage_.subspan(size_); }
+  void take(std::size_t count, float latest_time_s) noexcept {
+    size_ += count;
+    if (count != 0) last_time_s_ = std::max(last_time_s_, latest_time_s);
+  }
+
+  /// A firing has come that was earlier than the first: the sweep begins by so much earlier.
+  void begin_earlier(std::int64_t by_ns) noexcept {
+    const auto by_s = static_cast<float>(static_cast<double>(by_ns) * 1e-9);
+    for (Point& point : storage_.first(size_)) point.time_s += by_s;
+    if (size_ != 0) last_time_s_ += by_s;
+    start_utc_ns_ -= by_ns;
+  }
+
   /// Something of this turn is missing: it did not end at the cut.
   void mark_partial() noexcept { complete_ = false; }
   /// Packets of this turn have not come; `recover_packet` takes one back that was only late.
