@@ -5,6 +5,7 @@
 
 #include "drivers/decoder.hpp"
 #include "drivers/hesai/pandar64_decoder.hpp"
+#include "drivers/ouster/ouster_decoder.hpp"
 #include "drivers/robosense/decoder.hpp"
 #include "drivers/velodyne/vlp16_decoder.hpp"
 
@@ -13,7 +14,7 @@ namespace landfix::drivers {
 /// Made by make_decoder (drivers/make_decoder.hpp).
 class AnyDecoder {
  public:
-  using Alternatives = std::variant<velodyne::Vlp16Decoder, hesai::Pandar64Decoder, robosense::Decoder>;
+  using Alternatives = std::variant<velodyne::Vlp16Decoder, hesai::Pandar64Decoder, ouster::OusterDecoder, robosense::Decoder>;
 
   explicit AnyDecoder(const Alternatives& decoder) noexcept : decoder_(decoder) {}
 

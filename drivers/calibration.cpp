@@ -5,6 +5,7 @@
 
 #include "drivers/hesai/calibration.hpp"
 #include "drivers/robosense/calibration.hpp"
+#include "drivers/ouster/metadata_file.hpp"
 
 namespace landfix::drivers {
 
@@ -17,6 +18,8 @@ Calibration parse_calibration(const SensorModel& model, std::span<const std::byt
     case PacketFormat::robosense_rs16:
     case PacketFormat::robosense_helios16p:
       return robosense::parse_calibration(file, name, model.beam_count);
+    case PacketFormat::ouster:
+      return ouster::parse_metadata(model, file, name);
     case PacketFormat::velodyne_vlp16:
       break;
   }

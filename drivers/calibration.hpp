@@ -9,13 +9,14 @@
 #include <vector>
 
 #include "drivers/beam.hpp"
+#include "drivers/ouster/metadata.hpp"
 #include "drivers/sensor_model.hpp"
 
 namespace landfix::drivers {
 
 /// Nothing: the model's own table, or what the packets bring. Which alternative a format reads is
 /// parse_calibration's affair.
-using Calibration = std::variant<std::monostate, std::vector<Beam>>;
+using Calibration = std::variant<std::monostate, std::vector<Beam>, ouster::Metadata>;
 
 /// Reads the unit's file in the vendor's own format. `name` is for messages. Throws std::runtime_error with
 /// the line, what is wrong and what to do; also where the model takes no calibration.

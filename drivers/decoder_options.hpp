@@ -7,7 +7,8 @@
 namespace landfix::drivers {
 
 struct DecoderOptions {
-  double cut_deg = 0.0;  ///< azimuth of the cut between sweeps, clockwise from the front
+  double cut_deg = 0.0;  ///< azimuth of the cut between sweeps, clockwise from the front; none for Ouster,
+                         ///< whose frames are the sensor's own
   double min_range_m = 0.0;
   double max_range_m = std::numeric_limits<double>::infinity();
 

@@ -53,6 +53,20 @@ AnyDecoder make_robosense(const SensorModel& model, const DecoderOptions& option
   return AnyDecoder(robosense::Decoder(description, beams, options));
 }
 
+const ouster::Metadata& metadata_of(const SensorModel& model, const Calibration& calibration) {
+  const auto* const metadata = std::get_if<ouster::Metadata>(&calibration);
+  if (metadata == nullptr) {
+    throw std::runtime_error(std::string(model.name) +
+                             " needs its metadata file: get it from http://SENSOR/api/v1/sensor/metadata");
+  }
+  if (metadata->beam_count != model.beam_count) {
+    throw std::runtime_error(std::string(model.name) + " has " + std::to_string(model.beam_count) +
+                             " beams, its metadata " + std::to_string(metadata->beam_count) +
+                             ": is it another sensor's?");
+  }
+  return *metadata;
+}
+
 }  // namespace
 
 AnyDecoder make_decoder(const SensorModel& model, const DecoderOptions& options,
@@ -65,6 +79,8 @@ AnyDecoder make_decoder(const SensorModel& model, const DecoderOptions& options,
     case PacketFormat::hesai_pandar64:
       return AnyDecoder(
           hesai::Pandar64Decoder(beams_of<hesai::kPandar64Lasers>(model, calibration), options));
+    case PacketFormat::ouster:
+      return AnyDecoder(ouster::OusterDecoder(metadata_of(model, calibration), options));
     case PacketFormat::robosense_rs32:
     case PacketFormat::robosense_rs16:
     case PacketFormat::robosense_helios16p:

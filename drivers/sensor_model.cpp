@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "drivers/hesai/models.hpp"
+#include "drivers/ouster/models.hpp"
 #include "drivers/robosense/models.hpp"
 #include "drivers/velodyne/models.hpp"
 
@@ -17,7 +18,7 @@ constexpr auto concatenate(const std::array<SensorModel, Sizes>&... parts) noexc
   return all;
 }
 
-constexpr auto kModels = concatenate(velodyne::kModels, hesai::kModels, robosense::kModels);
+constexpr auto kModels = concatenate(velodyne::kModels, hesai::kModels, ouster::kModels, robosense::kModels);
 
 }  // namespace
 

@@ -16,6 +16,7 @@ namespace landfix::drivers {
 enum class PacketFormat : std::uint8_t {
   velodyne_vlp16,
   hesai_pandar64,
+  ouster,
   robosense_rs32,
   robosense_rs16,
   robosense_helios16p,

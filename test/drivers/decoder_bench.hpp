@@ -19,10 +19,10 @@ class DecoderBench {
  public:
   /// `capacity`: points of one sweep.
   explicit DecoderBench(std::string_view model, const drivers::DecoderOptions& options = {},
-                        std::size_t capacity = 100'000)
+                        std::size_t capacity = 100'000, const drivers::Calibration& calibration = {})
       : storage_(2 * capacity),
         sweeps_(storage_),
-        decoder_(drivers::make_decoder(*drivers::find_sensor_model(model), options)) {}
+        decoder_(drivers::make_decoder(*drivers::find_sensor_model(model), options, calibration)) {}
 
   /// Remembers a sweep that the packet completed.
   drivers::DecodeResult decode(std::span<const std::byte> payload,
@@ -36,6 +36,8 @@ class DecoderBench {
     if (flushed) keep();
     return flushed;
   }
+
+  [[nodiscard]] const drivers::StreamCounters& counters() const { return decoder_.counters(); }
 
   struct SweepCopy {
     std::vector<drivers::Point> points;

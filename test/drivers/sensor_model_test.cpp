@@ -31,6 +31,7 @@ TEST(SensorModel, NamesAreUniqueAndFound) {
 TEST(SensorModel, HoldsASweepOfDualReturnsAtTheSlowestRotation) {
   EXPECT_GT(find_sensor_model("vlp16")->max_points_per_sweep(), 115'741U);
   EXPECT_GT(find_sensor_model("pandar64")->max_points_per_sweep(), 230'400U);
+  EXPECT_GT(find_sensor_model("os1-64")->max_points_per_sweep(), 2U * 64U * 2048U);
 }
 
 TEST(SensorModel, IsRecognisedByItsOwnPacketsOnly) {

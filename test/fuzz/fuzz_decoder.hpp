@@ -15,10 +15,10 @@
 namespace landfix::test {
 
 inline void fuzz_decoder(const char* model, std::span<const std::byte> sound,
-                         std::span<const std::byte> input) {
+                         std::span<const std::byte> input, const drivers::Calibration& calibration = {}) {
   std::vector<drivers::Point> storage(4000);
   drivers::SweepPair sweeps(storage);
-  drivers::AnyDecoder decoder = drivers::make_decoder(*drivers::find_sensor_model(model), {});
+  drivers::AnyDecoder decoder = drivers::make_decoder(*drivers::find_sensor_model(model), {}, calibration);
   std::int64_t receive_utc_ns = 1'700'000'000'000'000'000;
   const auto decode = [&](std::span<const std::byte> payload) {
     receive_utc_ns += 1'000'000;
