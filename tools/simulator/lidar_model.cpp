@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "tools/simulator/ouster_model.hpp"
 #include "tools/simulator/robosense_model.hpp"
 #include "tools/simulator/vlp16_model.hpp"
 
@@ -23,6 +24,16 @@ struct Entry {
 constexpr std::array kModels{
     Entry{"vlp16", [] { return make_vlp16(Vlp16Variant::puck); }},
     Entry{"vlp16hires", [] { return make_vlp16(Vlp16Variant::hi_res); }},
+    Entry{"os0-32", [] { return make_ouster("os0-32"); }},
+    Entry{"os0-64", [] { return make_ouster("os0-64"); }},
+    Entry{"os0-128", [] { return make_ouster("os0-128"); }},
+    Entry{"os1-16", [] { return make_ouster("os1-16"); }},
+    Entry{"os1-32", [] { return make_ouster("os1-32"); }},
+    Entry{"os1-64", [] { return make_ouster("os1-64"); }},
+    Entry{"os1-128", [] { return make_ouster("os1-128"); }},
+    Entry{"os2-32", [] { return make_ouster("os2-32"); }},
+    Entry{"os2-64", [] { return make_ouster("os2-64"); }},
+    Entry{"os2-128", [] { return make_ouster("os2-128"); }},
     Entry{"rs32", [] { return make_robosense(RobosenseSensor::rs32); }},
     Entry{"rs16", [] { return make_robosense(RobosenseSensor::rs16); }},
     Entry{"helios16p", [] { return make_robosense(RobosenseSensor::helios16p); }},

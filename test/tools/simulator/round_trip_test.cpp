@@ -27,8 +27,22 @@ struct Resolution {
   double time_s;       ///< one step of the sensor's clock
 };
 constexpr Resolution kResolutions[] = {
-    {"vlp16", 0.002, 0.0075, 1e-6}, {"vlp16hires", 0.002, 0.0075, 1e-6}, {"rs32", 0.005, 0.0075, 1e-6},
-    {"rs16", 0.005, 0.0075, 1e-6},  {"helios16p", 0.0025, 0.0075, 1e-6},
+    {"vlp16", 0.002, 0.0075, 1e-6},
+    {"vlp16hires", 0.002, 0.0075, 1e-6},
+    // Columns stand at exact angles, and each has its time in nanoseconds: only floats are between.
+    {"os0-32", 0.001, 0.00002, 1e-9},
+    {"os0-64", 0.001, 0.00002, 1e-9},
+    {"os0-128", 0.008, 0.00002, 1e-9},
+    {"os1-16", 0.001, 0.00002, 1e-9},
+    {"os1-32", 0.001, 0.00002, 1e-9},
+    {"os1-64", 0.001, 0.00002, 1e-9},
+    {"os1-128", 0.008, 0.00002, 1e-9},
+    {"os2-32", 0.001, 0.00002, 1e-9},
+    {"os2-64", 0.001, 0.00002, 1e-9},
+    {"os2-128", 0.008, 0.00002, 1e-9},
+    {"rs32", 0.005, 0.0075, 1e-6},
+    {"rs16", 0.005, 0.0075, 1e-6},
+    {"helios16p", 0.0025, 0.0075, 1e-6},
 };
 
 const Resolution& resolution_of(std::string_view name) {
