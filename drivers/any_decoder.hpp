@@ -7,14 +7,16 @@
 #include "drivers/hesai/pandar64_decoder.hpp"
 #include "drivers/ouster/ouster_decoder.hpp"
 #include "drivers/robosense/decoder.hpp"
-#include "drivers/velodyne/vlp16_decoder.hpp"
+#include "drivers/velodyne/block_decoder.hpp"
+#include "drivers/velodyne/vls128_decoder.hpp"
 
 namespace landfix::drivers {
 
 /// Made by make_decoder (drivers/make_decoder.hpp).
 class AnyDecoder {
  public:
-  using Alternatives = std::variant<velodyne::Vlp16Decoder, hesai::Pandar64Decoder, ouster::OusterDecoder, robosense::Decoder>;
+  using Alternatives = std::variant<velodyne::BlockDecoder, velodyne::Vls128Decoder, hesai::Pandar64Decoder,
+                                    ouster::OusterDecoder, robosense::Decoder>;
 
   explicit AnyDecoder(const Alternatives& decoder) noexcept : decoder_(decoder) {}
 

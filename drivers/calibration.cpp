@@ -4,8 +4,9 @@
 #include <string>
 
 #include "drivers/hesai/calibration.hpp"
-#include "drivers/robosense/calibration.hpp"
 #include "drivers/ouster/metadata_file.hpp"
+#include "drivers/robosense/calibration.hpp"
+#include "drivers/velodyne/azimuth_offsets.hpp"
 
 namespace landfix::drivers {
 
@@ -20,7 +21,12 @@ Calibration parse_calibration(const SensorModel& model, std::span<const std::byt
       return robosense::parse_calibration(file, name, model.beam_count);
     case PacketFormat::ouster:
       return ouster::parse_metadata(model, file, name);
+    case PacketFormat::velodyne_vls128:
+      return velodyne::parse_azimuth_offsets(file, name, model.beams);
+    case PacketFormat::velodyne_hdl32e:
+    case PacketFormat::velodyne_vlp32c:
     case PacketFormat::velodyne_vlp16:
+    case PacketFormat::velodyne_vlp16hires:
       break;
   }
   throw std::runtime_error(std::string(name) + ": " + std::string(model.name) +

@@ -73,9 +73,17 @@ AnyDecoder make_decoder(const SensorModel& model, const DecoderOptions& options,
                         const Calibration& calibration) {
   check(model, options);
   switch (model.format) {
+    case PacketFormat::velodyne_vls128:
+      return AnyDecoder(
+          velodyne::Vls128Decoder(beams_of<velodyne::kVls128Lasers>(model, calibration), options));
+    case PacketFormat::velodyne_hdl32e:
+      return AnyDecoder(velodyne::BlockDecoder(velodyne::kHdl32e, model.beams, options));
+    case PacketFormat::velodyne_vlp32c:
+      return AnyDecoder(velodyne::BlockDecoder(velodyne::kVlp32c, model.beams, options));
     case PacketFormat::velodyne_vlp16:
-      return AnyDecoder(velodyne::Vlp16Decoder(beams_of<velodyne::kVlp16Lasers>(model, calibration),
-                                               model.product_id, options));
+      return AnyDecoder(velodyne::BlockDecoder(velodyne::kVlp16, model.beams, options));
+    case PacketFormat::velodyne_vlp16hires:
+      return AnyDecoder(velodyne::BlockDecoder(velodyne::kVlp16HiRes, model.beams, options));
     case PacketFormat::hesai_pandar64:
       return AnyDecoder(
           hesai::Pandar64Decoder(beams_of<hesai::kPandar64Lasers>(model, calibration), options));

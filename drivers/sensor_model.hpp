@@ -14,7 +14,11 @@ namespace landfix::drivers {
 
 /// Which decoder reads a sensor's packets.
 enum class PacketFormat : std::uint8_t {
+  velodyne_vls128,
+  velodyne_hdl32e,
+  velodyne_vlp32c,
   velodyne_vlp16,
+  velodyne_vlp16hires,
   hesai_pandar64,
   ouster,
   robosense_rs32,

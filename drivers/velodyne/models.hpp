@@ -1,6 +1,7 @@
 // Velodyne's rows of the catalogue, from the data sheets. Included by drivers/sensor_model.cpp alone.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "drivers/beam_tables.hpp"
@@ -11,14 +12,116 @@ namespace landfix::drivers::velodyne {
 
 inline constexpr std::array<std::uint16_t, 1> kPayloadSizes{sizeof(WirePacket)};
 
-/// All but the HDL-64E name themselves in the last byte.
-inline bool recognise(const SensorModel& model, std::span<const std::byte> payload) noexcept {
-  return payload.size() == sizeof(WirePacket) &&
-         load_little_endian<std::uint16_t>(payload.data()) == kBlockFlag &&
-         payload.back() == std::byte{model.product_id};
+inline std::uint16_t flag_of_block(std::span<const std::byte> payload, std::size_t block) noexcept {
+  return load_little_endian<std::uint16_t>(&payload[block * sizeof(WireBlock)]);
 }
 
+/// All but the HDL-64E, whose last byte may be anything, name themselves there.
+inline bool names_itself(const SensorModel& model, std::span<const std::byte> payload) noexcept {
+  return payload.size() == sizeof(WirePacket) && payload.back() == std::byte{model.product_id} &&
+         flag_of_block(payload, 0) == kBlockFlag;
+}
+
+inline bool recognise_blocks(const SensorModel& model, std::span<const std::byte> payload) noexcept {
+  return names_itself(model, payload) && flag_of_block(payload, 1) == kBlockFlag &&
+         flag_of_block(payload, 11) == kBlockFlag;
+}
+
+/// Four banks: three sequences a packet, or one and four blocks that are left over, or three blocks each.
+inline bool recognise_vls128(const SensorModel& model, std::span<const std::byte> payload) noexcept {
+  return names_itself(model, payload) &&
+         (flag_of_block(payload, 3) == kBankFlags[3] || flag_of_block(payload, 7) == kBankFlags[3] ||
+          flag_of_block(payload, 11) == kBankFlags[3]);
+}
+
+inline constexpr SensorModel kVls128Model{.name = "vls128",
+                                          .vendor = "Velodyne",
+                                          .display_name = "VLS-128",
+                                          .format = PacketFormat::velodyne_vls128,
+                                          .beam_count = beam_tables::vls128.size(),
+                                          .beams = beam_tables::vls128,
+                                          .calibration = CalibrationUse::optional,
+                                          .rotation_hz = {5, 10, 15, 20},
+                                          .min_range_m = 1.0,
+                                          .max_range_m = 245.0,
+                                          .range_precision_m = 0.03,
+                                          .vertical_up_deg = 15.0,
+                                          .vertical_down_deg = -25.0,
+                                          .vertical_resolution_deg = 0.11,
+                                          .horizontal_resolution_at_10_hz_deg = 0.2,
+                                          .wavelength_nm = 903.0,
+                                          .diameter_mm = 165.5,
+                                          .height_mm = 141.3,
+                                          .weight_kg = 3.5,
+                                          .data_port = 2368,
+                                          .telemetry_port = 8308,
+                                          .payload_sizes = kPayloadSizes,
+                                          .product_id = 0xA1,
+                                          .firing_period_us = 53.3,
+                                          .max_returns = 2,
+                                          .recognise = recognise_vls128};
+
+/// The same packets and the same table: no source tells their beams apart.
+inline constexpr SensorModel kVls128ApModel = [] {
+  SensorModel model = kVls128Model;
+  model.name = "vls128ap";
+  model.display_name = "Alpha Prime (VLS-128AP)";
+  return model;
+}();
+
 inline constexpr std::array kModels = {
+    kVls128ApModel,
+    kVls128Model,
+    SensorModel{.name = "hdl32e",
+                .vendor = "Velodyne",
+                .display_name = "HDL-32E",
+                .format = PacketFormat::velodyne_hdl32e,
+                .beam_count = beam_tables::hdl32e.size(),
+                .beams = beam_tables::hdl32e,
+                .rotation_hz = {5, 10, 15, 20},
+                .min_range_m = 1.0,
+                .max_range_m = 100.0,
+                .range_precision_m = 0.02,
+                .vertical_up_deg = 10.67,
+                .vertical_down_deg = -30.67,
+                .vertical_resolution_deg = 1.33,
+                .horizontal_resolution_at_10_hz_deg = 0.166,
+                .wavelength_nm = 903.0,
+                .diameter_mm = 85.3,
+                .height_mm = 144.2,
+                .weight_kg = 1.0,
+                .data_port = 2368,
+                .telemetry_port = 8308,
+                .payload_sizes = kPayloadSizes,
+                .product_id = 0x21,
+                .firing_period_us = 46.08,
+                .max_returns = 2,
+                .recognise = recognise_blocks},
+    SensorModel{.name = "vlp32c",
+                .vendor = "Velodyne",
+                .display_name = "VLP-32C (Ultra Puck)",
+                .format = PacketFormat::velodyne_vlp32c,
+                .beam_count = beam_tables::vlp32c.size(),
+                .beams = beam_tables::vlp32c,
+                .rotation_hz = {5, 10, 15, 20},
+                .min_range_m = 1.0,
+                .max_range_m = 200.0,
+                .range_precision_m = 0.03,
+                .vertical_up_deg = 15.0,
+                .vertical_down_deg = -25.0,
+                .vertical_resolution_deg = 0.333,
+                .horizontal_resolution_at_10_hz_deg = 0.2,
+                .wavelength_nm = 903.0,
+                .diameter_mm = 103.0,
+                .height_mm = 86.9,
+                .weight_kg = 0.925,
+                .data_port = 2368,
+                .telemetry_port = 8308,
+                .payload_sizes = kPayloadSizes,
+                .product_id = 0x28,
+                .firing_period_us = 55.296,
+                .max_returns = 2,
+                .recognise = recognise_blocks},
     SensorModel{.name = "vlp16",
                 .vendor = "Velodyne",
                 .display_name = "VLP-16 (Puck, Puck LITE)",
@@ -43,11 +146,11 @@ inline constexpr std::array kModels = {
                 .product_id = 0x22,
                 .firing_period_us = 55.296,
                 .max_returns = 2,
-                .recognise = recognise},
+                .recognise = recognise_blocks},
     SensorModel{.name = "vlp16hires",
                 .vendor = "Velodyne",
                 .display_name = "Puck Hi-Res",
-                .format = PacketFormat::velodyne_vlp16,
+                .format = PacketFormat::velodyne_vlp16hires,
                 .beam_count = beam_tables::vlp16hires.size(),
                 .beams = beam_tables::vlp16hires,
                 .rotation_hz = {5, 10, 15, 20},
@@ -68,7 +171,7 @@ inline constexpr std::array kModels = {
                 .product_id = 0x24,
                 .firing_period_us = 55.296,
                 .max_returns = 2,
-                .recognise = recognise},
+                .recognise = recognise_blocks},
 };
 
 }  // namespace landfix::drivers::velodyne

@@ -5,6 +5,7 @@
 //   block: | u16 flag | u16 azimuth | 32 x (u16 range, u8 intensity) |
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -16,6 +17,10 @@ namespace landfix::drivers::velodyne {
 inline constexpr std::size_t kBlocks = 12;
 inline constexpr std::size_t kBlockSlots = 32;
 inline constexpr std::uint16_t kBlockFlag = 0xEEFF;
+/// Lasers 0 to 31, 32 to 63, 64 to 95, 96 to 127: the flag of a block says which.
+inline constexpr std::array<std::uint16_t, 4> kBankFlags{0xEEFF, 0xDDFF, 0xCCFF, 0xBBFF};
+/// Some firmware counts on for some milliseconds before it returns to zero at the full hour.
+inline constexpr std::uint32_t kLatestTopOfHourUs = 3'601'000'000;
 
 /// Everything on the wire is bytes: no alignment is assumed, fields are read by load_little_endian.
 struct WireBlock {
@@ -43,6 +48,8 @@ enum class ReturnMode : std::uint8_t {
   strongest = 0x37,
   last = 0x38,
   dual = 0x39,
+  triple = 0x3A,                ///< Alpha Prime
+  dual_with_confidence = 0x3B,  ///< Alpha Prime
 };
 
 }  // namespace landfix::drivers::velodyne

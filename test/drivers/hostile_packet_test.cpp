@@ -1,5 +1,6 @@
 // Bad input is normal: whatever arrives is decoded or refused whole, and never believed.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -53,7 +54,15 @@ std::vector<std::byte> sound_packet(std::string_view model) {
     for (std::size_t row = 0; row < 32; ++row) packet.set_return(1, row, 500);
     return {packet.bytes().begin(), packet.bytes().end()};
   }
-  test::VelodynePacket packet(model == "vlp16" ? 0x22 : 0x24, 0x39);
+  if (model == "vls128") {
+    test::VelodynePacket packet(0xA1, 0x37);
+    constexpr std::array<std::uint16_t, 4> kFlags{0xEEFF, 0xDDFF, 0xCCFF, 0xBBFF};
+    for (std::size_t block = 0; block < 12; ++block) packet.set_flag(block, kFlags[block % 4]);
+    packet.set_azimuths(35980, 20, 4);
+    for (std::size_t slot = 0; slot < 32; ++slot) packet.set_return(1, slot, 500);
+    return {packet.bytes().begin(), packet.bytes().end()};
+  }
+  test::VelodynePacket packet(find_sensor_model(model)->product_id, 0x39);
   packet.set_azimuths(35950, 40, 2);
   for (std::size_t slot = 0; slot < 32; ++slot) packet.set_return(1, slot, 500);
   return {packet.bytes().begin(), packet.bytes().end()};
@@ -144,8 +153,8 @@ TEST_P(HostilePacket, AFullSweepCountsWhatDoesNotFit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryModel, HostilePacket,
-                         testing::Values("vlp16", "vlp16hires", "pandar64", "os1-64", "os0-32", "os2-128", "rs32", "rs16",
-                                         "helios16p"),
+                         testing::Values("vls128", "hdl32e", "vlp32c", "vlp16", "vlp16hires", "pandar64",
+                                         "os1-64", "os0-32", "os2-128", "rs32", "rs16", "helios16p"),
                          [](const auto& model) {
                            std::string name(model.param);
                            std::erase(name, '-');

@@ -1,6 +1,7 @@
 #include "drivers/sensor_model.hpp"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -44,6 +45,18 @@ TEST(SensorModel, IsRecognisedByItsOwnPacketsOnly) {
   EXPECT_TRUE(looks("vlp16", puck.bytes()));
   EXPECT_FALSE(looks("vlp16", hires.bytes()));
   EXPECT_TRUE(looks("vlp16hires", hires.bytes()));
+  EXPECT_TRUE(looks("hdl32e", test::VelodynePacket(0x21).bytes()));
+  EXPECT_TRUE(looks("vlp32c", test::VelodynePacket(0x28).bytes()));
+  test::VelodynePacket alpha(0xA1);
+  EXPECT_FALSE(looks("vls128", alpha.bytes())) << "its flags are those of blocks of 32 lasers";
+  constexpr std::array<std::uint16_t, 4> kFlags{0xEEFF, 0xDDFF, 0xCCFF, 0xBBFF};
+  for (std::size_t block = 0; block < 12; ++block) alpha.set_flag(block, kFlags[block % 4]);
+  EXPECT_TRUE(looks("vls128", alpha.bytes()));
+  EXPECT_TRUE(looks("vls128ap", alpha.bytes()));
+  // The last byte of an HDL-64E may be any; its blocks alternate between the upper and the lower half.
+  test::VelodynePacket hdl64(0x22);
+  for (std::size_t block = 0; block < 12; ++block) hdl64.set_flag(block, kFlags[block % 2]);
+  EXPECT_FALSE(looks("vlp16", hdl64.bytes()));
   EXPECT_TRUE(looks("pandar64", pandar.bytes()));
   EXPECT_FALSE(looks("pandar64", puck.bytes()));
   EXPECT_FALSE(looks("vlp16", pandar.bytes()));

@@ -1,11 +1,10 @@
-#include "drivers/velodyne/vlp16_decoder.hpp"
-
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "drivers/decoder_bench.hpp"
+#include "drivers/velodyne/block_decoder.hpp"
 #include "support/synthetic_packets.hpp"
 
 namespace landfix::drivers {

@@ -1,23 +1,17 @@
-#include "drivers/velodyne/vlp16_decoder.hpp"
+#include "drivers/velodyne/block_decoder.hpp"
 
 #include <cstring>
 
 namespace landfix::drivers::velodyne {
 namespace {
 
-// Section 9.4: 16 firings of 2.304 us and a pause of 18.432 us; two such sequences a block.
-constexpr double kSequenceUs = 55.296;
-constexpr std::int64_t kBlockNs = 110'592;
-constexpr double kRangeUnitM = 0.002;
-/// Some firmware counts on for some milliseconds before it returns to zero at the full hour.
-constexpr std::uint32_t kLatestTopOfHourUs = 3'601'000'000;
-
-std::array<FiringSlot, kBlockSlots> firing_slots(std::span<const Beam, kVlp16Lasers> beams,
+std::array<FiringSlot, kBlockSlots> firing_slots(const BlockLayout& layout, std::span<const Beam> beams,
                                                  bool vertical_offsets) noexcept {
   std::array<FiringSlot, kBlockSlots> slots;
   for (std::size_t i = 0; i < kBlockSlots; ++i) {
-    const Beam& beam = beams[i % kVlp16Lasers];
-    const double sequence_us = i < kVlp16Lasers ? 0.0 : kSequenceUs;
+    const Beam& beam = beams[i % layout.lasers];
+    const double sequence_us =
+        static_cast<double>(i / layout.lasers) * static_cast<double>(layout.sequence_ns) * 1e-3;
     const double time_s = (sequence_us + beam.firing_time_us) * 1e-6;
     slots[i] = {.elevation_deg = beam.elevation_deg,
                 .azimuth_offset_deg = beam.azimuth_offset_deg,
@@ -39,21 +33,24 @@ std::size_t returns_of(ReturnMode mode, std::uint16_t azimuth_0, std::uint16_t a
       return 2;
     case ReturnMode::unknown:  // only the azimuths tell
       return azimuth_0 == azimuth_1 ? 2 : 1;
+    case ReturnMode::triple:
+    case ReturnMode::dual_with_confidence:
+      return 0;
   }
   return 0;
 }
 
 }  // namespace
 
-Vlp16Decoder::Vlp16Decoder(std::span<const Beam, kVlp16Lasers> beams, std::uint8_t product,
+BlockDecoder::BlockDecoder(const BlockLayout& layout, std::span<const Beam> beams,
                            const DecoderOptions& options) noexcept
-    : projector_(firing_slots(beams, options.vertical_offsets), RangeFrom::beam_origin),
-      gate_(kRangeUnitM, options.min_range_m, options.max_range_m),
+    : projector_(firing_slots(layout, beams, options.vertical_offsets), RangeFrom::beam_origin),
+      gate_(layout.range_unit_m, options.min_range_m, options.max_range_m),
       builder_(options.cut_deg),
-      product_(product),
+      layout_(layout),
       firing_time_azimuth_(options.firing_time_azimuth) {}
 
-DecodeStatus Vlp16Decoder::validate(const WirePacket& wire, Header& header) const noexcept {
+DecodeStatus BlockDecoder::validate(const WirePacket& wire, Header& header) const noexcept {
   std::array<std::uint16_t, kBlocks> azimuths_centideg;
   for (std::size_t b = 0; b < kBlocks; ++b) {
     if (load_little_endian<std::uint16_t>(wire.blocks[b].flag) != kBlockFlag)
@@ -61,8 +58,8 @@ DecodeStatus Vlp16Decoder::validate(const WirePacket& wire, Header& header) cons
     azimuths_centideg[b] = load_little_endian<std::uint16_t>(wire.blocks[b].azimuth_centideg);
   }
   const auto mode = static_cast<ReturnMode>(wire.return_mode);
-  const bool unnamed = mode == ReturnMode::unknown && wire.product == std::byte{0};
-  if (!unnamed && wire.product != std::byte{product_}) return DecodeStatus::wrong_model;
+  const bool unnamed = layout_.may_be_unnamed && mode == ReturnMode::unknown && wire.product == std::byte{0};
+  if (!unnamed && wire.product != std::byte{layout_.product}) return DecodeStatus::wrong_model;
   if (!unnamed && mode == ReturnMode::unknown) return DecodeStatus::wrong_return_mode;
   header.returns = returns_of(mode, azimuths_centideg[0], azimuths_centideg[1]);
   if (header.returns == 0) return DecodeStatus::wrong_return_mode;
@@ -81,20 +78,20 @@ DecodeStatus Vlp16Decoder::validate(const WirePacket& wire, Header& header) cons
   return header.top_of_hour_us <= kLatestTopOfHourUs ? DecodeStatus::decoded : DecodeStatus::wrong_time;
 }
 
-DecodeStatus Vlp16Decoder::begin_packet(const Header& header, std::int64_t first_firing_ns,
+DecodeStatus BlockDecoder::begin_packet(const Header& header, std::int64_t first_firing_ns,
                                         std::int64_t receive_utc_ns, SweepPair& sweeps) noexcept {
   const auto azimuths_centideg = std::span(header.firing_azimuth_centideg).first(header.firings);
-  spin_rate_.update(azimuths_centideg, kBlockNs * 1e-3);
+  spin_rate_.update(azimuths_centideg, static_cast<double>(layout_.block_ns()) * 1e-3);
   if (firing_time_azimuth_) projector_.set_turn_rate(spin_rate_.rad_per_s());
   return builder_.begin_packet({.first_firing_ns = first_firing_ns,
                                 .receive_utc_ns = receive_utc_ns,
-                                .duration_ns = static_cast<std::int64_t>(header.firings) * kBlockNs,
+                                .duration_ns = static_cast<std::int64_t>(header.firings) * layout_.block_ns(),
                                 .turn_ns = spin_rate_.turn_ns(),
                                 .sequence = {}},
                                azimuths_centideg[0], sweeps);
 }
 
-DecodeResult Vlp16Decoder::decode(const Packet& packet, SweepPair& sweeps) noexcept {
+DecodeResult BlockDecoder::decode(const Packet& packet, SweepPair& sweeps) noexcept {
   if (packet.payload.size() == kPositionBytes) return {.status = DecodeStatus::telemetry};
   if (packet.payload.size() != sizeof(WirePacket)) return {.status = DecodeStatus::wrong_size};
   WirePacket wire;
@@ -109,10 +106,10 @@ DecodeResult Vlp16Decoder::decode(const Packet& packet, SweepPair& sweeps) noexc
   if (place != DecodeStatus::decoded) return {.status = place};
   for (std::size_t firing = 0; firing < header.firings; ++firing) {
     const std::uint16_t azimuth_centideg = header.firing_azimuth_centideg[firing];
-    const auto block_ns = first_firing_ns + static_cast<std::int64_t>(firing) * kBlockNs;
+    const auto block_ns = first_firing_ns + static_cast<std::int64_t>(firing) * layout_.block_ns();
     Block block{.azimuth_centideg = azimuth_centideg,
                 .time_s = builder_.begin_block(azimuth_centideg, block_ns, sweeps),
-                .unit_m = static_cast<float>(kRangeUnitM)};
+                .unit_m = static_cast<float>(layout_.range_unit_m)};
     // Dual: the last return, then the strongest, or the second strongest if the strongest is the last.
     for (std::size_t i = 0; i < header.returns; ++i) {
       block.slots = wire.blocks[firing * header.returns + i].slots;
