@@ -13,7 +13,7 @@ std::string_view to_string(DecodeStatus status) noexcept {
     case DecodeStatus::wrong_header:
       return "a marker, flag, count or unit does not fit the model";
     case DecodeStatus::wrong_model:
-      return "the packet names another sensor model";
+      return "the packet names another sensor model or unit";
     case DecodeStatus::wrong_return_mode:
       return "return mode is not one of the model's";
     case DecodeStatus::wrong_azimuth:

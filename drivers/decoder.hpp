@@ -26,7 +26,7 @@ enum class DecodeStatus : std::uint8_t {
   telemetry,          ///< position, status or calibration: understood, holds no points
   wrong_size,         ///< not the model's payload size
   wrong_header,       ///< a marker, flag, count or unit does not fit the model
-  wrong_model,        ///< the packet names another sensor model
+  wrong_model,        ///< the packet names another sensor model or unit
   wrong_return_mode,  ///< a return mode that the model does not document
   wrong_azimuth,      ///< 360 deg or more, or more than one turn in a packet
   wrong_time,         ///< not a date or a time, or far from that of its neighbours

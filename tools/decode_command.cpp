@@ -107,6 +107,19 @@ DecodeSummary decode_all(platform::PcapSource& source, std::uint16_t port, std::
   return summary;
 }
 
+/// A capture may hold the unit's calibration behind the first of its data: it is looked for beforehand.
+void learn_calibration(platform::PcapSource& source, const SensorModel& model, drivers::AnyDecoder& decoder,
+                       drivers::SweepPair& sweeps) {
+  if (model.calibration != drivers::CalibrationUse::in_stream || model.telemetry_port == 0) return;
+  platform::UdpPacket packet;
+  while (source.next(packet) == platform::ReadStatus::packet) {
+    if (packet.destination_port != model.telemetry_port) continue;
+    static_cast<void>(
+        decoder.decode({.payload = packet.payload, .receive_utc_ns = packet.receive_utc_ns}, sweeps));
+  }
+  source.rewind();
+}
+
 void refuse_if_nothing_was_decoded(const Arguments& arguments, const SensorModel& model,
                                    const DecodeSummary& summary) {
   if (summary.decoded() != 0) return;
@@ -133,6 +146,7 @@ void decode(const Arguments& arguments) {
   drivers::AnyDecoder decoder = drivers::make_decoder(model, arguments.options, calibration);
   std::vector<drivers::Point> storage(2 * model.max_points_per_sweep());
   drivers::SweepPair sweeps(storage);
+  learn_calibration(source, model, decoder, sweeps);
   SweepFiles files(arguments.output, arguments.format);
   const DecodeSummary summary = decode_all(source, port, model.telemetry_port, decoder, sweeps, files);
   refuse_if_nothing_was_decoded(arguments, model, summary);
@@ -162,8 +176,9 @@ void add_decode_command(CLI::App& app) {
       ->type_name("pcd|csv")
       ->default_str("pcd");
   command
-      .add_option("--cut-deg", arguments->options.cut_deg,
-                  "azimuth at which a sweep begins, clockwise from the front")
+      .add_option(
+          "--cut-deg", arguments->options.cut_deg,
+          "azimuth at which a sweep begins, clockwise from the front; Ouster's begin where its frames do")
       ->check(CLI::Range(-360.0, 360.0).description(""))
       ->type_name("D")
       ->capture_default_str();

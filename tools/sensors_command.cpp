@@ -65,7 +65,7 @@ void print_json() {
 
 void print_table() {
   constexpr const char* kRow =
-      "{:<11} {:<9} {:<25} {:>5}  {:<10}  {:<11} {:>9}  {:<11} {:>8} {:>9}  {:>6}  {:<13} {:>6}\n";
+      "{:<11} {:<9} {:<25} {:>5}  {:<10}  {:<11} {:>9}  {:<16} {:>6} {:>10}  {:>5}  {:<13} {:>6}\n";
   fmt::print(kRow, "NAME", "VENDOR", "MODEL", "BEAMS", "RATE", "RANGE", "PRECISION", "VERTICAL", "STEP",
              "HORIZONTAL", "LASER", "SIZE", "WEIGHT");
   fmt::print(kRow, "", "", "", "", "Hz", "m", "m", "deg", "deg", "deg@10Hz", "nm", "mm", "kg");
