@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "drivers/decoder.hpp"
-#include "drivers/hesai/pandar64_decoder.hpp"
+#include "drivers/hesai/pandar_decoder.hpp"
 #include "drivers/ouster/ouster_decoder.hpp"
 #include "drivers/robosense/decoder.hpp"
 #include "drivers/velodyne/block_decoder.hpp"
@@ -15,7 +15,7 @@ namespace landfix::drivers {
 /// Made by make_decoder (drivers/make_decoder.hpp).
 class AnyDecoder {
  public:
-  using Alternatives = std::variant<velodyne::BlockDecoder, velodyne::Vls128Decoder, hesai::Pandar64Decoder,
+  using Alternatives = std::variant<velodyne::BlockDecoder, velodyne::Vls128Decoder, hesai::PandarDecoder,
                                     ouster::OusterDecoder, robosense::Decoder>;
 
   explicit AnyDecoder(const Alternatives& decoder) noexcept : decoder_(decoder) {}

@@ -13,7 +13,7 @@ namespace landfix::drivers {
 Calibration parse_calibration(const SensorModel& model, std::span<const std::byte> file,
                               std::string_view name) {
   switch (model.format) {
-    case PacketFormat::hesai_pandar64:
+    case PacketFormat::hesai_pandar:
       return hesai::parse_calibration(file, name, model.beams);
     case PacketFormat::robosense_rs32:
     case PacketFormat::robosense_rs16:

@@ -6,7 +6,7 @@
 
 namespace landfix::drivers {
 
-/// Date and time as six bytes of a packet hold them.
+/// Date and time as packets hold them; whatever they hold.
 struct CivilTime {
   int year = 0;    ///< 2000 to 2099
   int month = 0;   ///< 1 to 12
@@ -28,7 +28,8 @@ struct CivilTime {
 /// Unix seconds UTC; nothing if it is no date or time.
 [[nodiscard]] constexpr std::optional<std::int64_t> unix_seconds(const CivilTime& time) noexcept {
   if (time.year < 2000 || time.year > 2099 || time.month < 1 || time.month > 12) return std::nullopt;
-  if (time.hour > 23 || time.minute > 59 || time.second > 59) return std::nullopt;
+  if (time.hour < 0 || time.hour > 23 || time.minute < 0 || time.minute > 59) return std::nullopt;
+  if (time.second < 0 || time.second > 59) return std::nullopt;
   const std::int64_t day = days_from_civil(time.year, time.month, time.day);
   const std::int64_t next_month =
       time.month == 12 ? days_from_civil(time.year + 1, 1, 1) : days_from_civil(time.year, time.month + 1, 1);

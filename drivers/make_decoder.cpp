@@ -22,17 +22,22 @@ void check(const SensorModel& model, const DecoderOptions& options) {
   }
 }
 
-/// Exactly N beams of the table or of the unit.
-template <std::size_t N>
-std::span<const Beam, N> beams_of(const SensorModel& model, const Calibration& calibration) {
+/// As many beams as the model has, of the table or of the unit.
+std::span<const Beam> beams_of(const SensorModel& model, const Calibration& calibration) {
   const auto* const unit = std::get_if<std::vector<Beam>>(&calibration);
   const auto beams = unit != nullptr ? std::span<const Beam>(*unit) : model.beams;
-  if (beams.size() != N) {
-    throw std::runtime_error(std::string(model.name) + " has " + std::to_string(N) +
+  if (beams.size() != model.beam_count) {
+    throw std::runtime_error(std::string(model.name) + " has " + std::to_string(model.beam_count) +
                              " beams, its calibration " + std::to_string(beams.size()) +
                              ": is it another sensor's?");
   }
-  return beams.first<N>();
+  return beams;
+}
+
+/// Exactly N beams of the table or of the unit.
+template <std::size_t N>
+std::span<const Beam, N> beams_of(const SensorModel& model, const Calibration& calibration) {
+  return beams_of(model, calibration).first<N>();
 }
 
 const robosense::Description& robosense_description(PacketFormat format) {
@@ -84,9 +89,9 @@ AnyDecoder make_decoder(const SensorModel& model, const DecoderOptions& options,
       return AnyDecoder(velodyne::BlockDecoder(velodyne::kVlp16, model.beams, options));
     case PacketFormat::velodyne_vlp16hires:
       return AnyDecoder(velodyne::BlockDecoder(velodyne::kVlp16HiRes, model.beams, options));
-    case PacketFormat::hesai_pandar64:
+    case PacketFormat::hesai_pandar:
       return AnyDecoder(
-          hesai::Pandar64Decoder(beams_of<hesai::kPandar64Lasers>(model, calibration), options));
+          hesai::PandarDecoder(hesai::layout_of(model.beam_count), beams_of(model, calibration), options));
     case PacketFormat::ouster:
       return AnyDecoder(ouster::OusterDecoder(metadata_of(model, calibration), options));
     case PacketFormat::robosense_rs32:

@@ -19,7 +19,7 @@ enum class PacketFormat : std::uint8_t {
   velodyne_vlp32c,
   velodyne_vlp16,
   velodyne_vlp16hires,
-  hesai_pandar64,
+  hesai_pandar,
   ouster,
   robosense_rs32,
   robosense_rs16,

@@ -12,7 +12,8 @@
 namespace landfix::drivers::hesai {
 namespace {
 
-constexpr double kMaxAngleDeg = 90.0;
+/// Units differ from their model by tenths of a degree; files of other models with as many channels by tens.
+constexpr double kMostApartDeg = 5.0;
 
 struct Channel {
   double number = 0.0;
@@ -81,12 +82,17 @@ void place(const Channel& channel, std::string_view name, std::size_t line, std:
   }
   const auto index = static_cast<std::size_t>(channel.number) - 1;
   if (seen[index]) fail(name, line, "channel " + std::to_string(index + 1) + " is given twice");
-  if (std::abs(channel.elevation_deg) > kMaxAngleDeg || std::abs(channel.azimuth_offset_deg) > kMaxAngleDeg) {
-    fail(name, line, "angle is beyond 90 degrees: expected channel,elevation_deg,azimuth_deg");
+  Beam& beam = beams[index];
+  if (std::abs(channel.elevation_deg - beam.elevation_deg) > kMostApartDeg ||
+      std::abs(channel.azimuth_offset_deg - beam.azimuth_offset_deg) > kMostApartDeg) {
+    fail(name, line,
+         "channel " + std::to_string(index + 1) +
+             " points more than 5 degrees away from where the model's does: is the file another "
+             "sensor's, or are its columns not channel,elevation,azimuth?");
   }
   seen[index] = true;
-  beams[index].elevation_deg = channel.elevation_deg;
-  beams[index].azimuth_offset_deg = channel.azimuth_offset_deg;
+  beam.elevation_deg = channel.elevation_deg;
+  beam.azimuth_offset_deg = channel.azimuth_offset_deg;
 }
 
 }  // namespace
@@ -106,7 +112,8 @@ std::vector<Beam> parse_calibration(std::span<const std::byte> file, std::string
   if (missing != seen.end()) {
     fail(name, line,
          "channel " + std::to_string(missing - seen.begin() + 1) + " of " + std::to_string(beams.size()) +
-             " is missing: read the calibration from the sensor again");
+             " is missing, expected a line channel,elevation,azimuth: read the angle correction from the "
+             "sensor again");
   }
   rank_rings(beams);
   return beams;

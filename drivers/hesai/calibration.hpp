@@ -1,5 +1,5 @@
 // The calibration file of one unit: the angles of its channels, as it comes with the sensor or is read from
-// it (Pandar64 User Manual).
+// it (user manuals). Firing times are the model's: no unit of the family brings a file of its own of them.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,9 @@ namespace landfix::drivers::hesai {
 
 /// Reads "channel,elevation,azimuth" lines, degrees, each channel 1 to N once, N = `table.size()`; what is
 /// not in the file (firing times) is taken from the model's `table`, rings are ranked anew. A byte order
-/// mark, CRLF, header lines and a trailing hash line are allowed. Throws std::runtime_error with `name`, the
-/// line, what is wrong and what to do.
+/// mark, CRLF, header lines and a trailing hash line are allowed. A file of another model is refused by its
+/// channels or by where they point. Throws std::runtime_error with `name`, the line, what is wrong and what
+/// to do.
 [[nodiscard]] std::vector<Beam> parse_calibration(std::span<const std::byte> file, std::string_view name,
                                                   std::span<const Beam> table);
 

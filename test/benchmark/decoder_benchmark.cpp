@@ -50,23 +50,26 @@ Recording vlp16(std::size_t returns) {
   return recording;
 }
 
-/// One second of a Pandar64 at 600 rpm.
-Recording pandar64(std::size_t returns) {
-  Recording recording{.packets = {}, .receive_utc_ns = {}, .records_a_packet = 6 * 64};
-  const auto count = returns == 2 ? 6000U : 3000U;
-  const std::size_t firings = 6 / returns;
-  for (unsigned i = 0; i < count; ++i) {
-    landfix::test::Pandar64Packet packet(returns == 2 ? 0x39 : 0x37, 6, i);
+/// One second of a Pandar at 600 rpm: `make` writes the packet of a number.
+template <class Make>
+Recording pandar(std::size_t returns, Make make) {
+  const landfix::test::PandarPacket shape = make(0);
+  const std::size_t firings = shape.blocks() / returns;
+  Recording recording{
+      .packets = {}, .receive_utc_ns = {}, .records_a_packet = shape.blocks() * shape.lasers()};
+  for (unsigned i = 0; i * firings < 18000; ++i) {
+    landfix::test::PandarPacket packet = make(i);
     const double time_us = i * static_cast<double>(firings) * 55.56;
+    packet.set_mode(returns == 2 ? 0x39 : 0x37);
     packet.set_azimuths(static_cast<unsigned>(time_us * 0.36) % 36000, 20, returns);
     packet.set_microseconds(static_cast<std::uint32_t>(time_us) % 1'000'000);
-    for (std::size_t block = 0; block < 6; ++block) {
-      for (std::size_t slot = 0; slot < 64; ++slot) {
+    for (std::size_t block = 0; block < packet.blocks(); ++block) {
+      for (std::size_t slot = 0; slot < packet.lasers(); ++slot) {
         packet.set_return(block, slot, range_raw(slot, i * firings + block / returns, block % returns), 10);
       }
     }
     recording.packets.emplace_back(packet.bytes().begin(), packet.bytes().end());
-    recording.receive_utc_ns.push_back(landfix::test::Pandar64Packet::kDateUtcNs +
+    recording.receive_utc_ns.push_back(landfix::test::PandarPacket::kDateUtcNs +
                                        static_cast<std::int64_t>(time_us * 1e3));
   }
   return recording;
@@ -74,10 +77,12 @@ Recording pandar64(std::size_t returns) {
 
 void decode(benchmark::State& state, const char* model_name, const Recording& recording) {
   const SensorModel& model = *landfix::drivers::find_sensor_model(model_name);
-  AnyDecoder decoder = landfix::drivers::make_decoder(model, {});
+  const AnyDecoder made = landfix::drivers::make_decoder(model, {});
   std::vector<Point> storage(2 * model.max_points_per_sweep());
-  SweepPair sweeps(storage);
   for (auto _ : state) {
+    // One that has seen a recording would not take it a second time.
+    AnyDecoder decoder = made;
+    SweepPair sweeps(storage);
     for (std::size_t i = 0; i < recording.packets.size(); ++i) {
       const auto result = decoder.decode(
           {.payload = recording.packets[i], .receive_utc_ns = recording.receive_utc_ns[i]}, sweeps);
@@ -97,10 +102,18 @@ void decode_vlp16(benchmark::State& state) {
   decode(state, "vlp16", vlp16(static_cast<std::size_t>(state.range(0))));
 }
 void decode_pandar64(benchmark::State& state) {
-  decode(state, "pandar64", pandar64(static_cast<std::size_t>(state.range(0))));
+  decode(state, "pandar64", pandar(static_cast<std::size_t>(state.range(0)), [](unsigned number) {
+           return landfix::test::Pandar64Packet(0x37, 6, number);
+         }));
+}
+void decode_pandar40p(benchmark::State& state) {
+  decode(state, "pandar40p", pandar(static_cast<std::size_t>(state.range(0)), [](unsigned /*number*/) {
+           return landfix::test::Pandar40pPacket();
+         }));
 }
 
 BENCHMARK(decode_vlp16)->ArgName("returns")->Arg(1)->Arg(2);
 BENCHMARK(decode_pandar64)->ArgName("returns")->Arg(1)->Arg(2);
+BENCHMARK(decode_pandar40p)->ArgName("returns")->Arg(1)->Arg(2);
 
 }  // namespace

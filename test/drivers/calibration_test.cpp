@@ -1,5 +1,6 @@
 #include "drivers/hesai/calibration.hpp"
 
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -13,9 +14,9 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr Beam kTable[] = {{.ring = 2, .elevation_deg = 10.0, .firing_time_us = -3.0},
+constexpr Beam kTable[] = {{.ring = 2, .elevation_deg = 2.0, .firing_time_us = -3.0},
                            {.ring = 1, .elevation_deg = 0.0, .firing_time_us = -2.0},
-                           {.ring = 0, .elevation_deg = -10.0, .firing_time_us = -1.0}};
+                           {.ring = 0, .elevation_deg = -2.0, .firing_time_us = -1.0}};
 
 std::vector<Beam> parse(std::string_view text) {
   return parse_calibration(std::as_bytes(std::span(text)), "unit.csv", kTable);
@@ -31,7 +32,7 @@ std::string error_of(std::string_view text) {
 }
 
 TEST(HesaiCalibration, ReadsAnglesAndKeepsFiringTimes) {
-  const auto beams = parse("Laser id,Elevation,Azimuth\n1,1.5,-1.042\n2,3.25,0\n3,-7,+2.5e0\n");
+  const auto beams = parse("Laser id,Elevation,Azimuth\n1,1.5,-1.042\n2,3.25,0\n3,-3,+2.5e0\n");
   ASSERT_EQ(beams.size(), 3U);
   EXPECT_EQ(beams[0].elevation_deg, 1.5);
   EXPECT_EQ(beams[0].azimuth_offset_deg, -1.042);
@@ -61,20 +62,62 @@ TEST(HesaiCalibration, SaysWhatIsWrongAndWhere) {
               HasSubstr("unit.csv:4: channel is not one of 1 to 3"));
   EXPECT_THAT(error_of("0,1,0\n"), HasSubstr("unit.csv:1: channel is not one of 1 to 3"));
   EXPECT_THAT(error_of("1.5,1,0\n"), HasSubstr("unit.csv:1: channel is not one of 1 to 3"));
-  EXPECT_THAT(error_of("1,91,0\n"), HasSubstr("unit.csv:1: angle is beyond 90 degrees"));
+  EXPECT_THAT(error_of("1,1,0\n2,5.01,0\n"), HasSubstr("unit.csv:2: channel 2 points more than 5 degrees"));
+  EXPECT_THAT(error_of("1,1,-5.01\n"), HasSubstr("unit.csv:1: channel 1 points more than 5 degrees"));
+  EXPECT_THAT(error_of("Channel,fire time(us)\n1,-23.18\n2,-21.876\n3,-20.572\n"),
+              HasSubstr("channel 1 of 3 is missing, expected a line channel,elevation,azimuth"));
   EXPECT_THAT(error_of("1,nan,0\n2,2,0\n3,3,0\n"), HasSubstr("channel 1 of 3 is missing"));
   EXPECT_THAT(error_of("1,1,0,0\n2,2,0\n3,3,0\n"), HasSubstr("channel 1 of 3 is missing"));
 }
 
+/// What a unit of the model would send.
+std::string file_of(const SensorModel& model, double lower_deg) {
+  std::string text = "Laser id,Elevation,Azimuth\n";
+  for (std::size_t i = 0; i < model.beams.size(); ++i) {
+    text += std::to_string(i + 1) + "," + std::to_string(model.beams[i].elevation_deg - lower_deg) + "," +
+            std::to_string(model.beams[i].azimuth_offset_deg) + "\r\n";
+  }
+  return text;
+}
+
+TEST(HesaiCalibration, ServesEveryModelAndKnowsThemApart) {
+  const SensorModel& pandar64 = *find_sensor_model("pandar64");
+  const SensorModel& pandar40p = *find_sensor_model("pandar40p");
+  const auto read = [](const SensorModel& model, const std::string& text) {
+    return std::get<std::vector<Beam>>(
+        drivers::parse_calibration(model, std::as_bytes(std::span(text)), "unit.csv"));
+  };
+  for (const SensorModel* const model : {&pandar64, &pandar40p}) {
+    // The makers' own defaults are up to 0.42 deg apart.
+    const auto beams = read(*model, file_of(*model, 0.42));
+    ASSERT_EQ(beams.size(), model->beam_count);
+    for (std::size_t i = 0; i < beams.size(); ++i) {
+      EXPECT_NEAR(beams[i].elevation_deg, model->beams[i].elevation_deg - 0.42, 1e-6);
+      EXPECT_EQ(beams[i].firing_time_us, model->beams[i].firing_time_us);
+      EXPECT_EQ(beams[i].ring, model->beams[i].ring);
+    }
+    EXPECT_NO_THROW(static_cast<void>(make_decoder(*model, {}, beams)));
+  }
+  EXPECT_THROW(static_cast<void>(read(pandar64, file_of(pandar40p, 0.0))), std::runtime_error);
+  EXPECT_THROW(static_cast<void>(read(pandar40p, file_of(pandar64, 0.0))), std::runtime_error);
+  // A PandarQT64 has 64 channels too, the first of them 52 deg below.
+  std::string qt64;
+  for (int i = 0; i < 64; ++i) {
+    qt64 += std::to_string(i + 1) + "," + std::to_string(-52.121 + 1.654 * i) + ",8.736\n";
+  }
+  EXPECT_THROW(static_cast<void>(read(pandar64, qt64)), std::runtime_error);
+}
+
 TEST(MakeDecoder, RefusesAnotherModelsCalibrationAndSenselessOptions) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const SensorModel& pandar64 = *find_sensor_model("pandar64");
   EXPECT_THROW(
       static_cast<void>(make_decoder(pandar64, {}, std::vector<Beam>(std::begin(kTable), std::end(kTable)))),
       std::runtime_error);
   EXPECT_THROW(static_cast<void>(make_decoder(pandar64, {.min_range_m = 3.0, .max_range_m = 2.0})),
                std::runtime_error);
-  EXPECT_THROW(static_cast<void>(make_decoder(pandar64, {.cut_deg = NAN})), std::runtime_error);
-  EXPECT_THROW(static_cast<void>(make_decoder(pandar64, {.min_range_m = NAN})), std::runtime_error);
+  EXPECT_THROW(static_cast<void>(make_decoder(pandar64, {.cut_deg = kNan})), std::runtime_error);
+  EXPECT_THROW(static_cast<void>(make_decoder(pandar64, {.min_range_m = kNan})), std::runtime_error);
 }
 
 }  // namespace

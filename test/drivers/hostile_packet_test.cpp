@@ -34,14 +34,16 @@ Calibration calibration_of(std::string_view name) {
   return {};
 }
 
+std::vector<std::byte> sound_pandar(test::PandarPacket packet) {
+  packet.set_azimuths(35970, 20, 2);
+  for (std::size_t slot = 0; slot < packet.lasers(); ++slot) packet.set_return(1, slot, 500);
+  return {packet.bytes().begin(), packet.bytes().end()};
+}
+
 /// A sound packet of each model, full of returns.
 std::vector<std::byte> sound_packet(std::string_view model) {
-  if (model == "pandar64") {
-    test::Pandar64Packet packet(0x39, 6, 7);
-    packet.set_azimuths(35970, 20, 2);
-    for (std::size_t slot = 0; slot < 64; ++slot) packet.set_return(1, slot, 500);
-    return {packet.bytes().begin(), packet.bytes().end()};
-  }
+  if (model == "pandar64") return sound_pandar(test::Pandar64Packet(0x39, 6, 7));
+  if (model == "pandar40p") return sound_pandar(test::Pandar40pPacket(0x39, 7));
   if (is_robosense(model)) {
     test::RobosensePacket packet(model);
     packet.set_azimuths(35970, 20, model == "rs32" ? 2 : 1);
@@ -148,13 +150,15 @@ TEST_P(HostilePacket, AFullSweepCountsWhatDoesNotFit) {
   ASSERT_TRUE(bench.swept().empty() ? bench.flush() : true);
   const auto& sweep = bench.swept().at(0);
   EXPECT_EQ(sweep.points.size(), 10U);
-  EXPECT_EQ(sweep.overflowed, GetParam() == std::string_view("pandar64") ? 54U : 22U);
+  const std::string_view model(GetParam());
+  EXPECT_EQ(sweep.overflowed, model == "pandar64" ? 54U : model == "pandar40p" ? 30U : 22U);
   EXPECT_FALSE(sweep.complete);
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryModel, HostilePacket,
                          testing::Values("vls128", "hdl32e", "vlp32c", "vlp16", "vlp16hires", "pandar64",
-                                         "os1-64", "os0-32", "os2-128", "rs32", "rs16", "helios16p"),
+                                         "pandar40p", "os1-64", "os0-32", "os2-128", "rs32", "rs16",
+                                         "helios16p"),
                          [](const auto& model) {
                            std::string name(model.param);
                            std::erase(name, '-');

@@ -32,6 +32,7 @@ TEST(SensorModel, NamesAreUniqueAndFound) {
 TEST(SensorModel, HoldsASweepOfDualReturnsAtTheSlowestRotation) {
   EXPECT_GT(find_sensor_model("vlp16")->max_points_per_sweep(), 115'741U);
   EXPECT_GT(find_sensor_model("pandar64")->max_points_per_sweep(), 230'400U);
+  EXPECT_GT(find_sensor_model("pandar40p")->max_points_per_sweep(), 144'000U);
   EXPECT_GT(find_sensor_model("os1-64")->max_points_per_sweep(), 2U * 64U * 2048U);
 }
 
@@ -39,6 +40,9 @@ TEST(SensorModel, IsRecognisedByItsOwnPacketsOnly) {
   const test::VelodynePacket puck(0x22);
   const test::VelodynePacket hires(0x24);
   const test::Pandar64Packet pandar;
+  const test::Pandar40pPacket pandar40p;
+  test::Pandar40pPacket unmarked;
+  unmarked.set_byte(9 * 124, 0xEE);
   const auto looks = [](const char* name, std::span<const std::byte> payload) {
     return looks_like(*find_sensor_model(name), payload);
   };
@@ -59,6 +63,13 @@ TEST(SensorModel, IsRecognisedByItsOwnPacketsOnly) {
   EXPECT_FALSE(looks("vlp16", hdl64.bytes()));
   EXPECT_TRUE(looks("pandar64", pandar.bytes()));
   EXPECT_FALSE(looks("pandar64", puck.bytes()));
+  EXPECT_FALSE(looks("pandar64", pandar40p.bytes()));
+  EXPECT_TRUE(looks("pandar40p", pandar40p.bytes()));
+  EXPECT_TRUE(looks("pandar40p", test::Pandar40pPacket(0x39, 1).bytes()));
+  EXPECT_FALSE(looks("pandar40p", pandar40p.bytes().first(1256)));
+  EXPECT_FALSE(looks("pandar40p", unmarked.bytes()));
+  EXPECT_FALSE(looks("pandar40p", pandar.bytes()));
+  EXPECT_FALSE(looks("pandar40p", puck.bytes()));
   EXPECT_FALSE(looks("vlp16", pandar.bytes()));
   EXPECT_FALSE(looks("vlp16", puck.bytes().first(1205)));
   EXPECT_FALSE(looks("vlp16", {}));

@@ -7,8 +7,8 @@
 #include "drivers/sensor_model.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  // Few channels, so that the fuzzer can find whole files.
-  const auto table = landfix::drivers::find_sensor_model("pandar64")->beams.first(3);
+  // Few channels, and those near zero, so that the fuzzer can find whole files.
+  const auto table = landfix::drivers::find_sensor_model("pandar64")->beams.subspan(17, 3);
   try {
     const auto beams =
         landfix::drivers::hesai::parse_calibration(std::as_bytes(std::span(data, size)), "fuzz", table);
