@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "tools/simulator/ouster_model.hpp"
+#include "tools/simulator/pandar_model.hpp"
 #include "tools/simulator/robosense_model.hpp"
 #include "tools/simulator/vlp16_model.hpp"
 
@@ -24,6 +25,8 @@ struct Entry {
 constexpr std::array kModels{
     Entry{"vlp16", [] { return make_vlp16(Vlp16Variant::puck); }},
     Entry{"vlp16hires", [] { return make_vlp16(Vlp16Variant::hi_res); }},
+    Entry{"pandar64", [] { return make_pandar(PandarVariant::pandar64); }},
+    Entry{"pandar40p", [] { return make_pandar(PandarVariant::pandar40p); }},
     Entry{"os0-32", [] { return make_ouster("os0-32"); }},
     Entry{"os0-64", [] { return make_ouster("os0-64"); }},
     Entry{"os0-128", [] { return make_ouster("os0-128"); }},

@@ -1,13 +1,8 @@
 #include "tools/simulator/velodyne_packets.hpp"
 
-#include <chrono>
-#include <cmath>
 #include <string>
-#include <string_view>
 
-#include <fmt/chrono.h>
-#include <fmt/format.h>
-
+#include "tools/simulator/nmea_sentence.hpp"
 #include "tools/simulator/wire_bytes.hpp"
 
 namespace landfix::tools::simulator::velodyne {
@@ -29,26 +24,6 @@ constexpr std::uint8_t kBoardCelsius = 45;
 std::uint32_t top_of_hour_us(std::int64_t utc_ns) noexcept {
   constexpr std::int64_t kHour_ns = 3'600'000'000'000;
   return static_cast<std::uint32_t>(utc_ns % kHour_ns / 1000);
-}
-
-std::string nmea_angle(double angle_deg, int degree_digits, char positive, char negative) {
-  const double magnitude_deg = std::abs(angle_deg);
-  const int degrees = static_cast<int>(magnitude_deg);
-  return fmt::format("{:0{}}{:07.4f},{}", degrees, degree_digits, 60.0 * (magnitude_deg - degrees),
-                     angle_deg < 0.0 ? negative : positive);
-}
-
-/// The recommended minimum sentence.
-std::string rmc(const GpsFix& fix) {
-  const std::chrono::sys_seconds second{std::chrono::seconds(fix.utc_ns / 1'000'000'000)};
-  constexpr double kKnot_mps = 1852.0 / 3600.0;
-  const std::string body =
-      fmt::format("GPRMC,{:%H%M%S},A,{},{},{:05.1f},{:05.1f},{:%d%m%y},,,A", second,
-                  nmea_angle(fix.latitude_deg, 2, 'N', 'S'), nmea_angle(fix.longitude_deg, 3, 'E', 'W'),
-                  fix.speed_mps / kKnot_mps, fix.course_deg, second);
-  unsigned checksum = 0;
-  for (const char c : body) checksum ^= static_cast<unsigned char>(c);
-  return fmt::format("${}*{:02X}\r\n", body, checksum);
 }
 
 }  // namespace
@@ -80,7 +55,7 @@ std::vector<std::byte> position_packet(const GpsFix& fix) {
   put_little(payload, kTopBoardAt + 1, kBoardCelsius, 1);
   put_little(payload, kPositionTimeAt, top_of_hour_us(fix.utc_ns), 4);
   put_little(payload, kPulseAt, kPulseLocked, 1);
-  const std::string sentence = rmc(fix);
+  const std::string sentence = nmea_sentence(fix);
   for (std::size_t i = 0; i < sentence.size(); ++i)
     payload[kNmeaAt + i] = static_cast<std::byte>(sentence[i]);
   return payload;

@@ -29,6 +29,8 @@ struct Resolution {
 constexpr Resolution kResolutions[] = {
     {"vlp16", 0.002, 0.0075, 1e-6},
     {"vlp16hires", 0.002, 0.0075, 1e-6},
+    {"pandar64", 0.004, 0.006, 1e-6},
+    {"pandar40p", 0.004, 0.006, 1e-6},
     // Columns stand at exact angles, and each has its time in nanoseconds: only floats are between.
     {"os0-32", 0.001, 0.00002, 1e-9},
     {"os0-64", 0.001, 0.00002, 1e-9},
