@@ -1,7 +1,7 @@
 // The arithmetic that rotating sensors share: a block of slots (u16 range, u8 intensity), one for each
 // firing, becomes points. What depends on the beam alone is computed once, what depends on the speed of
-// rotation once a packet, and the sine and cosine of the azimuth once a block; a point costs a dozen
-// multiplications.
+// rotation once a packet, and the sine and cosine of the azimuth once a block; what is left for each point is
+// in slot_table.cpp.
 #pragma once
 
 #include <array>
@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 
+#include "drivers/slot_table.hpp"
 #include "drivers/sweep.hpp"
 
 namespace landfix::drivers {
@@ -36,21 +37,18 @@ enum class RangeFrom : std::uint8_t {
   sensor_centre,  ///< from the origin of the sensor frame, although the beam starts elsewhere
 };
 
-/// Of the ranges on the wire.
-enum class ByteOrder : std::uint8_t { little, big };
-
 /// Returns that are kept. The bounds are in the wire's unit, so that one comparison decides, zero included.
 class RangeGate {
  public:
   RangeGate() = default;
   RangeGate(double unit_m, double min_range_m, double max_range_m) noexcept;
+  [[nodiscard]] RawBounds bounds() const noexcept { return bounds_; }
   [[nodiscard]] bool admits(std::uint16_t range_raw) const noexcept {
-    return range_raw >= least_raw_ && range_raw <= most_raw_;
+    return range_raw >= bounds_.least && range_raw <= bounds_.most;
   }
 
  private:
-  std::uint16_t least_raw_ = 1;  // 0 is no return
-  std::uint16_t most_raw_ = 0xFFFF;
+  RawBounds bounds_;
 };
 
 /// A block on the wire and what the packet says about it.
@@ -62,9 +60,6 @@ struct Block {
   float time_s = 0.0F;  ///< of the block's earliest firing, since the start of the sweep
   float unit_m = 0.0F;  ///< of the ranges
 };
-
-inline constexpr std::size_t kSlotBytes = 3;
-inline constexpr std::size_t kMaxSlots = 64;
 
 class BlockProjector {
  public:
@@ -82,26 +77,12 @@ class BlockProjector {
   template <class T>
   using PerSlot = std::array<T, kMaxSlots>;
 
-  std::size_t slot_count_;
-  ByteOrder byte_order_;
   double turn_rate_rad_per_s_ = 0.0;
-
-  // Of the beam, at rest.
+  // Of the beam, at rest; the table has it turned on by its firing time.
   PerSlot<RotorVector> direction_{};
   PerSlot<RotorVector> origin_m_{};
   PerSlot<double> turning_time_s_{};
-  // A range d from the sensor's centre is sqrt(d^2 + square) - lead along the beam; 0 from the beam's origin.
-  alignas(32) PerSlot<float> square_m2_{};
-  alignas(32) PerSlot<float> lead_m_{};
-  alignas(32) PerSlot<float> time_s_{};
-  PerSlot<std::uint16_t> ring_{};
-  // Of the beam, turned on by its firing time.
-  alignas(32) PerSlot<float> direction_x_{};
-  alignas(32) PerSlot<float> direction_y_{};
-  alignas(32) PerSlot<float> direction_z_{};
-  alignas(32) PerSlot<float> origin_x_m_{};
-  alignas(32) PerSlot<float> origin_y_m_{};
-  alignas(32) PerSlot<float> origin_z_m_{};
+  SlotTable table_;
 };
 
 }  // namespace landfix::drivers
