@@ -6,6 +6,7 @@ find_package(CLI11 REQUIRED)
 find_package(nanoflann REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(PkgConfig REQUIRED)
+pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
 pkg_check_modules(PCAP REQUIRED IMPORTED_TARGET libpcap)
 pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
 

@@ -43,12 +43,6 @@ Fit judge(const MatchResult& match, const FitGates& gates) noexcept {
                                                                                           : Fit::weak;
 }
 
-Localizer::Localizer(const VoxelMap& map, const LocalizerSettings& settings,
-                     const Pose& initial_pose) noexcept
-    : map_(map), settings_(settings), matcher_(settings.matcher) {
-  last_.pose = initial_pose;
-}
-
 Fix Localizer::localize(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns) noexcept {
   if (!std::exchange(any_sweep_, true)) {
     last_.stamp_utc_ns = stamp_utc_ns;

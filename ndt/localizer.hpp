@@ -68,11 +68,11 @@ struct Fix {
   MatchResult match;
 };
 
-/// One sweep after the other; no memory of its own beyond this object.
+/// One sweep after the other. Allocates in its constructor only.
 class Localizer {
  public:
   /// The memory that `map` views must outlive it. `initial_pose`: map <- vehicle at the first sweep.
-  Localizer(const VoxelMap& map, const LocalizerSettings& settings, const Pose& initial_pose) noexcept;
+  Localizer(const VoxelMap& map, const LocalizerSettings& settings, const Pose& initial_pose);
 
   /// The velocity to undo the next sweep's distortion with.
   [[nodiscard]] const Velocity& velocity() const noexcept { return velocity_; }

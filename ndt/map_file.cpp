@@ -46,10 +46,12 @@ void validate_map(std::span<const std::byte> image, const std::string& name) {
         fmt::format("truncated: {} bytes of {}; copy or build it again", image.size(), header.total_bytes));
   }
   const std::uint64_t body = image.size() - sizeof header;
-  const bool sizes_agree =
-      std::has_single_bit(header.table_size) && header.table_size >= kMinTableSize &&
-      header.table_size <= body / sizeof(BlockEntry) && header.voxel_count <= body / sizeof(Voxel) &&
-      header.table_size * sizeof(BlockEntry) + header.voxel_count * sizeof(Voxel) == body;
+  const bool sizes_agree = std::has_single_bit(header.table_size) && header.table_size >= kMinTableSize &&
+                           header.table_size <= body / sizeof(BlockEntry) &&
+                           header.voxel_count <= body / sizeof(Voxel) &&
+                           header.table_size * sizeof(BlockEntry) + header.voxel_count * sizeof(Voxel) +
+                                   3 * mean_column_size(header.voxel_count) * sizeof(float) ==
+                               body;
   if (!sizes_agree || !(header.resolution_m > 0.0) || !std::isfinite(header.resolution_m) ||
       header.longest_probe >= header.table_size) {
     refuse("its header is damaged; copy or build it again");

@@ -72,38 +72,61 @@ struct Estimate {
 
 /// Whether the sharp optimum may replace the wide one it started from. The sharp score has many more maxima:
 /// with few points, a direction that nothing holds, or a large move it is likely to be another one.
-[[nodiscard]] bool is_trustworthy(const Estimate& wide, const Estimate& sharp, double resolution_m) noexcept {
+[[nodiscard]] bool is_trustworthy(const Estimate& wide, const Estimate& sharp, std::size_t points_matched,
+                                  double resolution_m) noexcept {
   constexpr std::size_t kEnoughPoints = 200;
   constexpr double kHeld = 1e-4;  // smallest pivot of the Hessian scaled to a unit diagonal
   constexpr double kSmallMove = 0.25;
   constexpr double kSmallTurn_rad = 0.02;
   const Twist scale = sharp.objective.definite.diagonal().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();
   const Eigen::LDLT<Matrix6> ldlt(scale.asDiagonal() * sharp.objective.definite * scale.asDiagonal());
-  return sharp.objective.points_matched >= kEnoughPoints && ldlt.vectorD().minCoeff() > kHeld &&
+  return points_matched >= kEnoughPoints && ldlt.vectorD().minCoeff() > kHeld &&
          (sharp.pose.translation() - wide.pose.translation()).norm() < kSmallMove * resolution_m &&
          angle_between(sharp.pose, wide.pose) < kSmallTurn_rad;
 }
 
+/// How a search looks at the map, and when it may stop.
+struct Phase {
+  Covariance covariance{};
+  Reach reach{};
+  double narrowness = 1.0;   ///< factor of d2: below 1, voxels pull from farther away
+  double converged_m = 0.0;  ///< a step shorter than both ends it
+  double converged_rad = 0.0;
+};
+
+/// From far away: few points, which a step may move far, and distributions so wide that the nearest optimum
+/// is the right one from twice as far. Where it ends is near enough for the other phases.
+constexpr Phase kCoarse{.covariance = Covariance::wide,
+                        .reach = {.pair = 1.5, .margin = 0.4},
+                        .narrowness = 0.05,
+                        .converged_m = 0.02,
+                        .converged_rad = 2e-3};
+
+/// Of a search that another one goes on from.
+constexpr double kLeadingTolerance = 30.0;
+
 class Search {
  public:
-  Search(const VoxelMap& map, std::span<const Eigen::Vector3f> points_m, const MatcherSettings& settings,
+  Search(const VoxelMap& map, PairGroups& groups, const MatcherSettings& settings,
          const ScoreConstants& constants) noexcept
-      : map_(map), points_m_(points_m), settings_(settings), constants_(constants) {}
+      : map_(map), groups_(groups), settings_(settings), constants_(constants) {}
 
-  [[nodiscard]] Estimate evaluate_at(const Pose& pose, Covariance covariance) noexcept {
+  [[nodiscard]] Estimate evaluate_at(const Pose& pose, const Phase& phase) noexcept {
     ++iterations_;
-    return {pose, evaluate(map_, points_m_, pose, covariance, constants_)};
+    const ScoreConstants constants{.d1 = constants_.d1, .d2 = phase.narrowness * constants_.d2};
+    return {pose, evaluate(map_, groups_, pose, phase.covariance, constants)};
   }
 
   /// Climbs from `best` until a step is negligible (true) or the iterations are spent (false).
-  [[nodiscard]] bool climb(Estimate& best, Covariance covariance) noexcept {
+  [[nodiscard]] bool climb(Estimate& best, const Phase& phase) noexcept {
     constexpr double kMinDamping = 1e-5;
     constexpr double kMaxDamping = 1e4;
     double damping = kMinDamping;
     while (iterations_ < settings_.max_iterations) {
       const Twist step = limited(newton_step(best.objective, damping), settings_);
-      if (is_negligible(step)) return true;
-      const Estimate next = evaluate_at(moved(best.pose, step), covariance);
+      if (step.head<3>().norm() < phase.converged_m && step.tail<3>().norm() < phase.converged_rad)
+        return true;
+      const Estimate next = evaluate_at(moved(best.pose, step), phase);
       if (next.objective.score >= best.objective.score) {
         best = next;
         damping = std::max(0.1 * damping, kMinDamping);
@@ -118,12 +141,8 @@ class Search {
   [[nodiscard]] int iterations() const noexcept { return iterations_; }
 
  private:
-  [[nodiscard]] bool is_negligible(const Twist& step) const noexcept {
-    return step.head<3>().norm() < settings_.converged_m && step.tail<3>().norm() < settings_.converged_rad;
-  }
-
   const VoxelMap& map_;
-  std::span<const Eigen::Vector3f> points_m_;
+  PairGroups& groups_;
   const MatcherSettings& settings_;
   ScoreConstants constants_;
   int iterations_ = 0;
@@ -132,31 +151,56 @@ class Search {
 }  // namespace
 
 MatchResult Matcher::match(const VoxelMap& map, std::span<const Eigen::Vector3f> points_m,
-                           const Pose& guess) const noexcept {
+                           const Pose& guess) noexcept {
   MatchResult result;
   const ScoreConstants constants = score_constants(settings_.outlier_ratio, map.resolution_m());
+  const Phase sharp_phase{.covariance = Covariance::sharp,
+                          .converged_m = settings_.converged_m,
+                          .converged_rad = settings_.converged_rad};
+  Phase wide_phase = sharp_phase;
+  wide_phase.covariance = Covariance::wide;
+  // What only leads to the sharp optimum need not be exact.
+  Phase leading_phase = wide_phase;
+  leading_phase.converged_m *= kLeadingTolerance;
+  leading_phase.converged_rad *= kLeadingTolerance;
   result.points = points_m.size();
   result.best_likelihood = constants.d1;
-  Search search(map, points_m, settings_, constants);
-  Estimate wide = search.evaluate_at(guess, Covariance::wide);
-  result.converged = wide.objective.pairs != 0 && search.climb(wide, Covariance::wide);
-  Estimate final = wide;
-  if (settings_.sharpen && result.converged) {
-    Estimate sharp = search.evaluate_at(wide.pose, Covariance::sharp);
-    result.sharpened =
-        search.climb(sharp, Covariance::sharp) && is_trustworthy(wide, sharp, map.resolution_m());
-    if (result.sharpened) final = sharp;
+  Search search(map, groups_, settings_, constants);
+
+  Pose start = guess;
+  if (settings_.coarse_points != 0) {
+    const std::size_t stride = std::max<std::size_t>(1, points_m.size() / settings_.coarse_points);
+    groups_.assign(points_m, stride, kCoarse.reach);
+    Estimate coarse = search.evaluate_at(guess, kCoarse);
+    if (coarse.objective.pairs != 0) static_cast<void>(search.climb(coarse, kCoarse));
+    start = coarse.pose;
   }
-  result.pose = final.pose;
-  result.covariance = to_roll_pitch_yaw_covariance(laplace_covariance(final.objective), final.pose);
+
+  groups_.assign(points_m, 1, wide_phase.reach);
+  Estimate best = search.evaluate_at(start, wide_phase);
+  result.converged =
+      best.objective.pairs != 0 && search.climb(best, settings_.sharpen ? leading_phase : wide_phase);
+  groups_.update(map, best.pose, Covariance::wide);
+  const PointScores points = score_points(map, groups_, best.pose, constants);
+  result.score = best.objective.score;
+  if (settings_.sharpen && result.converged) {
+    Estimate sharp = search.evaluate_at(best.pose, sharp_phase);
+    result.sharpened = search.climb(sharp, sharp_phase) &&
+                       is_trustworthy(best, sharp, points.points_matched, map.resolution_m());
+    if (result.sharpened) {
+      best = sharp;
+    } else {
+      result.converged = search.climb(best, wide_phase);
+    }
+  }
+  result.pose = best.pose;
+  result.covariance = to_roll_pitch_yaw_covariance(laplace_covariance(best.objective), best.pose);
   result.iterations = search.iterations();
-  result.score = wide.objective.score;
-  result.points_matched = wide.objective.points_matched;
+  result.points_matched = points.points_matched;
   if (!points_m.empty())
     result.transformation_probability = result.score / static_cast<double>(points_m.size());
-  if (wide.objective.points_matched != 0) {
-    result.nearest_voxel_likelihood =
-        wide.objective.best_score_sum / static_cast<double>(wide.objective.points_matched);
+  if (points.points_matched != 0) {
+    result.nearest_voxel_likelihood = points.best_sum / static_cast<double>(points.points_matched);
   }
   return result;
 }

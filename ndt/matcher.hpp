@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "ndt/pair_groups.hpp"
 #include "ndt/pose.hpp"
 #include "ndt/score.hpp"
 #include "ndt/voxel_map.hpp"
@@ -18,9 +19,10 @@ struct MatcherSettings {
   double outlier_ratio = 0.55;  ///< 0: the plain exponential
   double step_limit_m = 0.3;
   double step_limit_rad = 0.03;
-  double converged_m = 3e-3;  ///< a step shorter than both ends the search
-  double converged_rad = 3e-4;
-  bool sharpen = true;  ///< finish on the sharp covariances where that can be trusted
+  double converged_m = 1e-4;  ///< a step shorter than both ends the search
+  double converged_rad = 1e-5;
+  bool sharpen = true;              ///< finish on the sharp covariances where that can be trusted
+  std::size_t coarse_points = 300;  ///< that move the scan first, about; 0: no coarse search
 };
 
 struct MatchResult {
@@ -39,17 +41,23 @@ struct MatchResult {
 
 /// Each step is tried before it is taken and must not lower the score: the search cannot diverge. No guess,
 /// scan or map makes it fail; what it found says `converged` or not. Where nothing overlaps, the pose is the
-/// guess.
+/// guess. Allocates in its constructor only.
 class Matcher {
  public:
-  explicit Matcher(const MatcherSettings& settings) noexcept : settings_(settings) {}
+  /// `max_points`: of a scan; what is beyond is left out.
+  explicit Matcher(const MatcherSettings& settings, std::size_t max_points = kMaxPoints)
+      : settings_(settings), groups_(max_points) {}
 
-  /// `points_m`: the filtered scan, frame `vehicle`. `guess`: map <- vehicle.
+  /// `points_m`: the filtered scan, frame `vehicle`, neighbours near each other (VoxelGrid). `guess`: map <-
+  /// vehicle.
   [[nodiscard]] MatchResult match(const VoxelMap& map, std::span<const Eigen::Vector3f> points_m,
-                                  const Pose& guess) const noexcept;
+                                  const Pose& guess) noexcept;
+
+  static constexpr std::size_t kMaxPoints = 1 << 15;
 
  private:
   MatcherSettings settings_;
+  PairGroups groups_;
 };
 
 }  // namespace landfix::ndt

@@ -2,22 +2,18 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <span>
 
 #include <Eigen/Core>
 
+#include "ndt/pair_groups.hpp"
 #include "ndt/pose.hpp"
 #include "ndt/score.hpp"
 #include "ndt/voxel_map.hpp"
 
 namespace landfix::ndt {
 
-/// Which covariance of the voxels counts.
-enum class Covariance : std::uint8_t { wide, sharp };
-
 /// A point p of the scan (frame `vehicle`) and a voxel with mean m and inverse covariance C, paired where m
-/// lies within one resolution of p in the map, contribute s = d1 exp(-d2/2 (p - m)' C (p - m)).
+/// lies within reach of p in the map (PairGroups), contribute s = d1 exp(-d2/2 (p - m)' C (p - m)).
 ///
 /// Derivatives are by a left perturbation about the vehicle, R <- exp(w) R and t <- t + v: `Twist` is (v, w).
 struct Objective {
@@ -27,13 +23,21 @@ struct Objective {
   /// with the residuals; both are positive semidefinite.
   Matrix6 definite = Matrix6::Zero();
   Matrix6 curvature = Matrix6::Zero();
-  double best_score_sum = 0.0;     ///< over the points, each with its best voxel
-  std::size_t points_matched = 0;  ///< points with at least one voxel
   std::size_t pairs = 0;
 };
 
-[[nodiscard]] Objective evaluate(const VoxelMap& map, std::span<const Eigen::Vector3f> points_m,
-                                 const Pose& pose, Covariance covariance,
-                                 const ScoreConstants& constants) noexcept;
+/// Of the points in `groups`, whose pairs it brings up to date.
+[[nodiscard]] Objective evaluate(const VoxelMap& map, PairGroups& groups, const Pose& pose,
+                                 Covariance covariance, const ScoreConstants& constants) noexcept;
+
+/// What single points score, each with its best voxel.
+struct PointScores {
+  double best_sum = 0.0;
+  std::size_t points_matched = 0;  ///< with a voxel within reach
+};
+
+/// Of pairs that are up to date at the pose (see `evaluate`).
+[[nodiscard]] PointScores score_points(const VoxelMap& map, const PairGroups& groups, const Pose& pose,
+                                       const ScoreConstants& constants) noexcept;
 
 }  // namespace landfix::ndt

@@ -11,6 +11,9 @@ VoxelMap::VoxelMap(std::span<const std::byte> bytes) noexcept
   table_ = {table, header_->table_size};
   // The table's size is a power of two of at least 8, so the voxels begin on a line of their own.
   voxels_ = {reinterpret_cast<const Voxel*>(table + header_->table_size), header_->voxel_count};
+  const auto* const columns = reinterpret_cast<const float*>(voxels_.data() + voxels_.size());
+  const std::size_t column_size = mean_column_size(header_->voxel_count);
+  for (std::size_t axis = 0; axis < 3; ++axis) mean_columns_m_[axis] = columns + axis * column_size;
 }
 
 }  // namespace landfix::ndt

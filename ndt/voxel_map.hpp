@@ -1,9 +1,10 @@
 // The map: voxels, each a normal distribution, in one block of memory that is also the map file.
 //
-//   MapHeader | BlockEntry[table_size] | Voxel[voxel_count]
+//   MapHeader | BlockEntry[table_size] | Voxel[voxel_count] | x[] | y[] | z[] of the means
 //
 // A flat hash table finds the 4 x 4 x 4 block of a cell, a mask says which of its cells are voxels, and the
-// rank of the bit which voxel it is. This is a view: it owns nothing, and reading never allocates.
+// rank of the bit which voxel it is. The means stand a second time in columns, since looking for what is near
+// needs nothing else. This is a view: it owns nothing, and reading never allocates.
 #pragma once
 
 #include <array>
@@ -55,8 +56,13 @@ struct alignas(64) MapHeader {
 static_assert(sizeof(MapHeader) == 64);
 
 inline constexpr std::array<char, 8> kMapMagic{'L', 'A', 'N', 'D', 'F', 'I', 'X', '\n'};
-inline constexpr std::uint32_t kMapVersion = 1;
+inline constexpr std::uint32_t kMapVersion = 2;
 inline constexpr std::uint32_t kMapByteOrder = 0x01020304;
+
+/// Floats of one column of means: whole lines, and one more to read beyond the last mean.
+[[nodiscard]] constexpr std::uint64_t mean_column_size(std::uint64_t voxel_count) noexcept {
+  return (voxel_count + 31) / 16 * 16;
+}
 
 class VoxelMap {
  public:
@@ -69,6 +75,9 @@ class VoxelMap {
   [[nodiscard]] double resolution_m() const noexcept { return resolution_m_; }
   [[nodiscard]] std::span<const Voxel> voxels() const noexcept { return voxels_; }
   [[nodiscard]] std::span<const BlockEntry> blocks() const noexcept { return table_; }
+  /// The means along one axis, each from the lower corner of its block [m]. 16 floats can be read from any of
+  /// them on.
+  [[nodiscard]] const float* mean_column_m(std::size_t axis) const noexcept { return mean_columns_m_[axis]; }
 
   /// The block of a key; null where the map has none.
   [[nodiscard]] const BlockEntry* find_block(std::uint64_t key) const noexcept {
@@ -82,86 +91,15 @@ class VoxelMap {
     return nullptr;
   }
 
-  /// Calls `visit(const Voxel&, const Eigen::Vector3f& difference_m)` for every voxel whose mean lies within
-  /// one resolution of the point; the difference is point - mean. A mean lies in its own cell, so the 27
-  /// cells around the point hold them all.
-  template <class Visit>
-  void visit_near(const LatticePoint& point, Visit&& visit) const noexcept;
-
  private:
   std::span<const BlockEntry> table_;
   std::span<const Voxel> voxels_;
+  std::array<const float*, 3> mean_columns_m_{};
   const MapHeader* header_ = nullptr;
   double resolution_m_ = 0.0;
   unsigned hash_shift_ = 63;
   std::uint32_t longest_probe_ = 0;
 };
-
-namespace detail {
-
-/// Cells of a block, along one axis, that lie in [first, last] (block coordinates, may reach beyond 0..3), as
-/// a mask over all its 64 cells.
-struct AxisMasks {
-  std::uint64_t pattern;  ///< the cells of index 0 along the axis
-  unsigned stride;        ///< bits from one index to the next
-};
-inline constexpr std::array<AxisMasks, 3> kAxisMasks{
-    {{0x1111111111111111U, 1}, {0x000F000F000F000FU, 4}, {0xFFFFU, 16}}};
-
-[[nodiscard]] constexpr std::uint64_t slab(const AxisMasks& axis, std::int32_t first,
-                                           std::int32_t last) noexcept {
-  std::uint64_t mask = 0;
-  for (std::int32_t i = first < 0 ? 0 : first; i <= (last > 3 ? 3 : last); ++i) {
-    mask |= axis.pattern << (axis.stride * static_cast<unsigned>(i));
-  }
-  return mask;
-}
-
-/// slab(axis, c - 1, c + 1) for c = -1..4: the cell of the point relative to the block's corner.
-inline constexpr auto kNeighbourSlabs = [] {
-  std::array<std::array<std::uint64_t, 6>, 3> slabs{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::int32_t c = -1; c <= 4; ++c) {
-      slabs[axis][static_cast<std::size_t>(c + 1)] = slab(kAxisMasks[axis], c - 1, c + 1);
-    }
-  }
-  return slabs;
-}();
-
-}  // namespace detail
-
-template <class Visit>
-void VoxelMap::visit_near(const LatticePoint& point, Visit&& visit) const noexcept {
-  if (!point.inside) return;
-  const auto resolution = static_cast<float>(resolution_m_);
-  const float radius_m2 = resolution * resolution;
-  const Cell& c = point.cell;
-  for (std::int32_t bk = (c.k - 1) >> 2; bk <= (c.k + 1) >> 2; ++bk) {
-    for (std::int32_t bj = (c.j - 1) >> 2; bj <= (c.j + 1) >> 2; ++bj) {
-      for (std::int32_t bi = (c.i - 1) >> 2; bi <= (c.i + 1) >> 2; ++bi) {
-        const BlockEntry* const block = find_block(block_key(bi, bj, bk));
-        if (block == nullptr) continue;
-        const Cell local{c.i - 4 * bi, c.j - 4 * bj, c.k - 4 * bk};
-        std::uint64_t near = block->occupancy &
-                             detail::kNeighbourSlabs[0][static_cast<std::size_t>(local.i + 1)] &
-                             detail::kNeighbourSlabs[1][static_cast<std::size_t>(local.j + 1)] &
-                             detail::kNeighbourSlabs[2][static_cast<std::size_t>(local.k + 1)];
-        for (; near != 0; near &= near - 1) {
-          const int bit = std::countr_zero(near);
-          const std::uint64_t below = (std::uint64_t{1} << bit) - 1;
-          const Voxel& voxel = voxels_[block->first_voxel +
-                                       static_cast<std::uint32_t>(std::popcount(block->occupancy & below))];
-          const Eigen::Vector3f cells(static_cast<float>(local.i - (bit & 3)),
-                                      static_cast<float>(local.j - ((bit >> 2) & 3)),
-                                      static_cast<float>(local.k - (bit >> 4)));
-          const Eigen::Vector3f difference_m =
-              cells * resolution + point.offset_m - Eigen::Map<const Eigen::Vector3f>(voxel.mean_m.data());
-          if (difference_m.squaredNorm() <= radius_m2) visit(voxel, difference_m);
-        }
-      }
-    }
-  }
-}
 
 /// Calls `visit(const Voxel&, const Eigen::Vector3d& mean_m)` for every voxel, the mean in the frame `map`.
 template <class Visit>

@@ -164,7 +164,9 @@ MapImage VoxelMapBuilder::build() const {
   std::size_t block_count = 1;
   for (std::size_t i = 1; i < placed.size(); ++i) block_count += placed[i].key != placed[i - 1].key ? 1U : 0U;
   const std::size_t table_size = std::max(std::bit_ceil(2 * block_count), kMinTableSize);
-  MapImage image(sizeof(MapHeader) + table_size * sizeof(BlockEntry) + placed.size() * sizeof(Voxel));
+  const std::size_t column_size = mean_column_size(placed.size());
+  MapImage image(sizeof(MapHeader) + table_size * sizeof(BlockEntry) + placed.size() * sizeof(Voxel) +
+                 3 * column_size * sizeof(float));
 
   auto* const header = new (image.bytes().data()) MapHeader{.magic = kMapMagic,
                                                             .version = kMapVersion,
@@ -177,9 +179,16 @@ MapImage VoxelMapBuilder::build() const {
   auto* const entries = reinterpret_cast<BlockEntry*>(image.bytes().data() + sizeof(MapHeader));
   const std::span<BlockEntry> table(entries, table_size);
   auto* const voxels = reinterpret_cast<Voxel*>(entries + table_size);
+  auto* const means_m = reinterpret_cast<float*>(voxels + placed.size());
   BlockEntry block;
   for (std::size_t i = 0; i < placed.size(); ++i) {
     voxels[i] = placed[i].voxel;
+    const unsigned bit = placed[i].bit;
+    const std::array<unsigned, 3> cell{bit & 3, (bit >> 2) & 3, bit >> 4};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      means_m[axis * column_size + i] =
+          static_cast<float>(cell[axis] * resolution_m_) + placed[i].voxel.mean_m[axis];
+    }
     if (i == 0 || placed[i].key != block.key)
       block = {.key = placed[i].key, .first_voxel = static_cast<std::uint32_t>(i)};
     block.occupancy |= std::uint64_t{1} << placed[i].bit;

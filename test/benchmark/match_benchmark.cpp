@@ -45,7 +45,7 @@ void match_sweep(benchmark::State& state) {
   thin(grid, yard.sweep);
   const auto points_m = grid.finish();
   const Pose guess(Eigen::Translation3d(0.01 * static_cast<double>(state.range(0)), 0.0, 0.0));
-  const Matcher matcher({});
+  Matcher matcher({});
   MatchResult result;
   for ([[maybe_unused]] auto _ : state) {
     result = matcher.match(yard.map, points_m, guess);

@@ -1,12 +1,17 @@
 #include "ndt/matcher.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
+#include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include "ndt/objective.hpp"
+#include "ndt/pair_groups.hpp"
 #include "ndt/random_world.hpp"
 #include "ndt/reference_matcher.hpp"
 
@@ -33,6 +38,16 @@ struct Yard {
   Pose truth;
   std::vector<Eigen::Vector3f> scan;
 };
+
+/// The objective of a scan whose pairs have just been looked up.
+Objective evaluate_scan(const VoxelMap& map, std::span<const Eigen::Vector3f> scan, const Pose& pose,
+                        Covariance covariance) {
+  PairGroups groups(scan.size());
+  groups.assign(scan, 1, {});
+  const Objective objective = evaluate(map, groups, pose, covariance, kConstants);
+  EXPECT_EQ(groups.dropped_pairs(), 0U);
+  return objective;
+}
 
 TEST(ReferenceMatcher, GradientAndHessianAgreeWithCentralDifferences) {
   std::mt19937_64 random(7);
@@ -85,7 +100,7 @@ TEST(Objective, AgreesWithTheReference) {
       const Pose pose = yard.truth * random_pose(random, 1.0, 0.1);
       const auto pairs = find_pairs(voxels, yard.scan, pose, kResolution_m);
       const ReferenceObjective exact = evaluate_pairs(voxels, yard.scan, pairs, pose, kConstants);
-      const Objective fast = evaluate(yard.map, yard.scan, pose, covariance, kConstants);
+      const Objective fast = evaluate_scan(yard.map, yard.scan, pose, covariance);
       EXPECT_EQ(fast.pairs, pairs.size());
       EXPECT_NEAR(fast.score, exact.score, 1e-5 * exact.absolute_score);
       const Matrix6 hessian = fast.curvature - fast.definite;
@@ -112,9 +127,69 @@ TEST(Objective, PairsEveryVoxelWhoseMeanIsWithinOneResolution) {
     std::vector<Eigen::Vector3d> few(cloud.begin(), cloud.begin() + 500);
     const Pose pose = random_pose(random, 2.0, 3.0);
     const auto scan = seen_from(few, pose);
-    EXPECT_EQ(evaluate(map, scan, pose, Covariance::wide, kConstants).pairs,
+    EXPECT_EQ(evaluate_scan(map, scan, pose, Covariance::wide).pairs,
               find_pairs(voxels, scan, pose, resolution_m).size());
   }
+}
+
+void expect_same(const Objective& a, const Objective& b, double share) {
+  EXPECT_EQ(a.pairs, b.pairs);
+  EXPECT_NEAR(a.score, b.score, share * b.score);
+  // Definite sums, so that each one is its own scale.
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      const double scale = std::sqrt(b.definite(i, i) * b.definite(j, j));
+      EXPECT_NEAR(a.definite(i, j), b.definite(i, j), share * scale) << i << ' ' << j;
+      EXPECT_NEAR(a.curvature(i, j), b.curvature(i, j), share * scale) << i << ' ' << j;
+    }
+    EXPECT_NEAR(a.gradient[i], b.gradient[i], share * std::sqrt(b.definite(i, i) * b.score)) << i;
+  }
+}
+
+TEST(PairGroups, WhatIsRememberedEqualsWhatIsLookedUpAnew) {
+  const Yard yard(3);
+  std::mt19937_64 random(16);
+  PairGroups groups(yard.scan.size());
+  groups.assign(yard.scan, 1, {});
+  for (int i = 0; i < 30; ++i) {
+    // Within the margin, beyond it for points that are far away, beyond it for all.
+    const Pose pose = yard.truth * random_pose(random, i < 20 ? 0.1 : 1.0, i < 10 ? 0.001 : 0.05);
+    const Covariance covariance = i % 3 == 0 ? Covariance::sharp : Covariance::wide;
+    expect_same(evaluate(yard.map, groups, pose, covariance, kConstants),
+                evaluate_scan(yard.map, yard.scan, pose, covariance), 1e-5);
+  }
+}
+
+TEST(PairGroups, TakeAsManyPointsAsTheyHaveRoomForAndThoseOfAStride) {
+  const Yard yard(3);
+  const std::span<const Eigen::Vector3f> scan(yard.scan);
+  PairGroups small(300);
+  small.assign(scan, 1, {});
+  expect_same(evaluate(yard.map, small, yard.truth, Covariance::wide, kConstants),
+              evaluate_scan(yard.map, scan.first(300), yard.truth, Covariance::wide), 1e-5);
+  std::vector<Eigen::Vector3f> every_third;
+  for (std::size_t i = 0; i < scan.size(); i += 3) every_third.push_back(scan[i]);
+  PairGroups thinned(scan.size());
+  thinned.assign(scan, 3, {});
+  expect_same(evaluate(yard.map, thinned, yard.truth, Covariance::wide, kConstants),
+              evaluate_scan(yard.map, every_third, yard.truth, Covariance::wide), 1e-5);
+}
+
+TEST(PairKernel, EveryInstructionSetGivesTheSame) {
+  const Yard yard(7);
+  std::mt19937_64 random(17);
+  const Pose pose = yard.truth * random_pose(random, 0.5, 0.05);
+  const Objective best = evaluate_scan(yard.map, yard.scan, pose, Covariance::sharp);
+  std::size_t compared = 0;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    expect_same(evaluate_scan(yard.map, yard.scan, pose, Covariance::sharp), best, 1e-5);
+    ++compared;
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  EXPECT_GT(compared, 1U);
 }
 
 TEST(Matcher, FindsTheOptimumOfTheReference) {
@@ -151,20 +226,44 @@ TEST(Matcher, FindsTheTruthFromNearby) {
 }
 
 TEST(Matcher, NeverLowersTheScoreOfTheGuess) {
+  // The coarse search climbs another score, with wider distributions.
   std::mt19937_64 random(12);
   MatcherSettings settings;
   settings.sharpen = false;
+  settings.coarse_points = 0;
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const Yard yard(seed);
     for (int start = 0; start < 20; ++start) {
       const Pose guess = yard.truth * random_pose(random, 5.0, 1.0);
-      const double before = evaluate(yard.map, yard.scan, guess, Covariance::wide, kConstants).score;
+      const double before = evaluate_scan(yard.map, yard.scan, guess, Covariance::wide).score;
       const MatchResult result = Matcher(settings).match(yard.map, yard.scan, guess);
       EXPECT_GE(result.score, before);
       EXPECT_LE(result.iterations, settings.max_iterations);
       EXPECT_TRUE(result.pose.matrix().allFinite());
     }
   }
+}
+
+TEST(Matcher, FindsTheTruthFromFartherAwayWithTheCoarseSearch) {
+  std::mt19937_64 random(18);
+  const auto found = [&random](const MatcherSettings& settings) {
+    int count = 0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      const Yard yard(seed);
+      Matcher matcher(settings);
+      for (int start = 0; start < 5; ++start) {
+        const MatchResult result =
+            matcher.match(yard.map, yard.scan, yard.truth * random_pose(random, 1.2, 0.1));
+        EXPECT_LE(result.iterations, settings.max_iterations);
+        count += (result.pose.translation() - yard.truth.translation()).norm() < 0.1 ? 1 : 0;
+      }
+    }
+    return count;
+  };
+  const int with = found({});
+  const int without = found({.coarse_points = 0});
+  EXPECT_GT(with, without);
+  EXPECT_GE(with, 90);
 }
 
 TEST(Matcher, DoesNotDependOnTheOrderOfThePoints) {

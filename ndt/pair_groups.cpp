@@ -1,0 +1,93 @@
+#include "ndt/pair_groups.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ndt/pair_lookup.hpp"
+
+namespace landfix::ndt {
+namespace {
+
+/// No LiDAR sees farther; a point that did would take the digits of its group.
+constexpr float kFarthest_m = 1e4F;
+
+/// How far the pose has taken the group's points from where they were looked up, at most.
+[[nodiscard]] double moved_m(const PairGroup& group, const Pose& pose) noexcept {
+  return (pose * group.centre_m - group.looked_up_at * group.centre_m).norm() +
+         angle_between(pose, group.looked_up_at) * group.radius_m;
+}
+
+}  // namespace
+
+void PairGroups::assign(std::span<const Eigen::Vector3f> points_m, std::size_t stride,
+                        const Reach& reach) noexcept {
+  reach_ = reach;
+  size_ = 0;
+  group_count_ = 0;
+  dropped_pairs_ = 0;
+  for (std::size_t next = 0; next < points_m.size() && size_ < points_m_.size();) {
+    PairGroup& group = groups_[group_count_++];
+    group = PairGroup{};
+    group.first_point = size_;
+    for (; next < points_m.size() && size_ < points_m_.size() && group.point_count < kGroupPoints;
+         next += stride) {
+      if (!(points_m[next].cwiseAbs().maxCoeff() < kFarthest_m)) continue;  // NaN is not
+      points_m_[size_++] = points_m[next];
+      ++group.point_count;
+      group.centre_m += points_m[next].cast<double>();
+    }
+    group.centre_m /= static_cast<double>(std::max<std::size_t>(group.point_count, 1));
+    for (Eigen::Vector3f& point_m : std::span(points_m_).subspan(group.first_point, group.point_count)) {
+      point_m = (point_m.cast<double>() - group.centre_m).cast<float>();
+      group.radius_m = std::max(group.radius_m, static_cast<double>(point_m.norm()));
+    }
+  }
+}
+
+void PairGroups::update(const VoxelMap& map, const Pose& pose, Covariance covariance) noexcept {
+  const bool changed = covariance != covariance_;
+  covariance_ = covariance;
+  for (std::size_t i = 0; i < group_count_; ++i) {
+    if (!groups_[i].is_looked_up || moved_m(groups_[i], pose) > reach_.margin * map.resolution_m()) {
+      look_up(map, pose, i);
+    } else if (changed) {
+      fill_covariances(map, i);
+    }
+  }
+}
+
+void PairGroups::look_up(const VoxelMap& map, const Pose& pose, std::size_t index) noexcept {
+  PairGroup& group = groups_[index];
+  const double resolution_m = map.resolution_m();
+  group.looked_up_at = pose;
+  group.is_looked_up = true;
+  group.pair_count = 0;
+  const Eigen::Vector3d centre_m = pose * group.centre_m;
+  const LatticePoint middle = to_lattice(centre_m, resolution_m, 1.0 / resolution_m);
+  if (!middle.inside) return;  // a group beyond the lattice is beyond any map
+  group.origin = middle.cell;
+  const Eigen::Matrix3f rotation = pose.linear().cast<float>();
+  const auto radius_m = static_cast<float>((reach_.pair + reach_.margin) * resolution_m);
+  GroupPoints points{.count = group.point_count, .origin = group.origin, .radius_m = radius_m};
+  for (std::size_t p = 0; p < group.point_count; ++p) {
+    const Eigen::Vector3f& point_m = points_m_[group.first_point + p];
+    const Eigen::Vector3f position_m = middle.offset_m + rotation * point_m;
+    points.point_m[p] = {point_m.x(), point_m.y(), point_m.z()};
+    points.position_m[p] = {position_m.x(), position_m.y(), position_m.z()};
+  }
+  const LookUp found = look_up_pairs(map, points, columns_[index]);
+  group.pair_count = found.pairs;
+  dropped_pairs_ += found.dropped;
+  fill_covariances(map, index);
+}
+
+void PairGroups::fill_covariances(const VoxelMap& map, std::size_t index) noexcept {
+  const auto inverse_covariance = covariance_ == Covariance::wide ? &Voxel::wide_1pm2 : &Voxel::sharp_1pm2;
+  PairColumns& columns = columns_[index];
+  for (std::size_t n = 0; n < groups_[index].pair_count; ++n) {
+    const Symmetric3f& shape = map.voxels()[columns.voxel[n]].*inverse_covariance;
+    for (std::size_t i = 0; i < shape.size(); ++i) columns.inverse_covariance_1pm2[i][n] = shape[i];
+  }
+}
+
+}  // namespace landfix::ndt

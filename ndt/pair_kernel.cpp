@@ -1,0 +1,200 @@
+#include "ndt/pair_kernel.hpp"
+
+#include <cstring>
+#include <limits>
+
+#include "ndt/simd_targets.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "ndt/pair_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+// NOLINTBEGIN(modernize-concat-nested-namespaces): Highway compiles this part once an instruction set.
+HWY_BEFORE_NAMESPACE();
+namespace landfix::ndt {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// At most 16 lanes: columns are padded to that.
+using Floats = hn::CappedTag<float, 16>;
+using V = hn::Vec<Floats>;
+
+/// e^x for x in [-87, 0], to 2 units in the last place: 2^n times a polynomial on [-ln2/2, ln2/2].
+HWY_ATTR V exp_negative(V x) {
+  const Floats d;
+  const hn::RebindToSigned<Floats> di;
+  const V clamped = hn::Max(x, hn::Set(d, -87.0F));
+  const V n = hn::Round(hn::Mul(clamped, hn::Set(d, 1.44269504F)));
+  // ln 2 in two parts, so that the difference keeps its digits (Cody and Waite).
+  const V r =
+      hn::NegMulAdd(n, hn::Set(d, -2.12194440e-4F), hn::NegMulAdd(n, hn::Set(d, 0.693359375F), clamped));
+  V p = hn::Set(d, 1.0F / 720.0F);
+  p = hn::MulAdd(p, r, hn::Set(d, 1.0F / 120.0F));
+  p = hn::MulAdd(p, r, hn::Set(d, 1.0F / 24.0F));
+  p = hn::MulAdd(p, r, hn::Set(d, 1.0F / 6.0F));
+  p = hn::MulAdd(p, r, hn::Set(d, 0.5F));
+  p = hn::MulAdd(p, r, hn::Set(d, 1.0F));
+  p = hn::MulAdd(p, r, hn::Set(d, 1.0F));
+  const auto exponent = hn::ShiftLeft<23>(hn::Add(hn::ConvertTo(di, n), hn::Set(di, 127)));
+  return hn::Mul(p, hn::BitCast(d, exponent));
+}
+
+struct Vector {
+  V x;
+  V y;
+  V z;
+};
+
+HWY_ATTR V dot(const Vector& a, const Vector& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+
+HWY_ATTR Vector cross(const Vector& a, const Vector& b) {
+  return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
+          hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
+}
+
+/// The running sums, a vector each, in the order of GroupSums.
+struct Sums {
+  V at[kGroupSumCount];
+};
+
+HWY_ATTR void add(V& sum, V a, V b) { sum = hn::MulAdd(a, b, sum); }
+
+/// w J' C J with J = [I, -S], S = skew(y): C, -C S, S' C S.
+HWY_ATTR void add_definite(V* sums, const Vector (&c)[3], const Vector& y, V weight) {
+  // Rows of C S.
+  const Vector cs[3] = {cross(c[0], y), cross(c[1], y), cross(c[2], y)};
+  const V minus_weight = hn::Neg(weight);
+  add(sums[0], weight, c[0].x);
+  add(sums[1], weight, c[0].y);
+  add(sums[2], weight, c[0].z);
+  add(sums[3], minus_weight, cs[0].x);
+  add(sums[4], minus_weight, cs[0].y);
+  add(sums[5], minus_weight, cs[0].z);
+  add(sums[6], weight, c[1].y);
+  add(sums[7], weight, c[1].z);
+  add(sums[8], minus_weight, cs[1].x);
+  add(sums[9], minus_weight, cs[1].y);
+  add(sums[10], minus_weight, cs[1].z);
+  add(sums[11], weight, c[2].z);
+  add(sums[12], minus_weight, cs[2].x);
+  add(sums[13], minus_weight, cs[2].y);
+  add(sums[14], minus_weight, cs[2].z);
+  // S' (C S) = -S (C S): minus y x each column.
+  const Vector column_x = cross(y, {cs[0].x, cs[1].x, cs[2].x});
+  const Vector column_y = cross(y, {cs[0].y, cs[1].y, cs[2].y});
+  const Vector column_z = cross(y, {cs[0].z, cs[1].z, cs[2].z});
+  add(sums[15], minus_weight, column_x.x);
+  add(sums[16], minus_weight, column_y.x);
+  add(sums[17], minus_weight, column_z.x);
+  add(sums[18], minus_weight, column_y.y);
+  add(sums[19], minus_weight, column_z.y);
+  add(sums[20], minus_weight, column_z.z);
+}
+
+HWY_ATTR void add_outer(V* sums, const V (&u)[6], V weight) {
+  for (int i = 0, n = 0; i < 6; ++i) {
+    const V weighted = hn::Mul(weight, u[i]);
+    for (int j = i; j < 6; ++j) add(sums[n++], weighted, u[j]);
+  }
+}
+
+/// The candidates from `i` on, as vectors.
+struct Candidates {
+  Vector c[3];  ///< rows of the inverse covariance
+  Vector arm;   ///< the point from the group's centre, map axes
+  Vector difference;
+  Vector pull;  ///< C times the difference
+  V distance;   ///< squared, of Mahalanobis
+  hn::Mask<Floats> is_pair;
+};
+
+HWY_ATTR Candidates candidates(const PairColumns& columns, std::size_t i, std::size_t count,
+                               const GroupPlace& place) {
+  const Floats d;
+  const auto load = [&](const auto& column) HWY_ATTR { return hn::Load(d, column.data() + i); };
+  const auto set = [&](float value) HWY_ATTR { return hn::Set(d, value); };
+  const auto& r = place.rotation;
+  const auto& shape = columns.inverse_covariance_1pm2;
+  Candidates all;
+  const V xy = load(shape[1]);
+  const V xz = load(shape[2]);
+  const V yz = load(shape[4]);
+  all.c[0] = {load(shape[0]), xy, xz};
+  all.c[1] = {xy, load(shape[3]), yz};
+  all.c[2] = {xz, yz, load(shape[5])};
+  const Vector p{load(columns.point_m[0]), load(columns.point_m[1]), load(columns.point_m[2])};
+  all.arm = {dot({set(r[0]), set(r[1]), set(r[2])}, p), dot({set(r[3]), set(r[4]), set(r[5])}, p),
+             dot({set(r[6]), set(r[7]), set(r[8])}, p)};
+  all.difference = {hn::Add(all.arm.x, hn::Sub(set(place.centre_m[0]), load(columns.mean_m[0]))),
+                    hn::Add(all.arm.y, hn::Sub(set(place.centre_m[1]), load(columns.mean_m[1]))),
+                    hn::Add(all.arm.z, hn::Sub(set(place.centre_m[2]), load(columns.mean_m[2])))};
+  all.pull = {dot(all.c[0], all.difference), dot(all.c[1], all.difference), dot(all.c[2], all.difference)};
+  all.distance = dot(all.difference, all.pull);
+  all.is_pair =
+      hn::And(hn::Le(dot(all.difference, all.difference), set(place.radius_m2)), hn::FirstN(d, count - i));
+  return all;
+}
+
+HWY_ATTR void measure_pairs_simd(const PairColumns& columns, std::size_t count, const GroupPlace& place,
+                                 float* distances) {
+  const Floats d;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const Candidates all = candidates(columns, i, count, place);
+    hn::StoreU(hn::IfThenElse(all.is_pair, all.distance, hn::Set(d, std::numeric_limits<float>::infinity())),
+               d, distances + i);
+  }
+}
+
+HWY_ATTR void sum_pairs_simd(const PairColumns& columns, std::size_t count, const GroupPlace& place, float d1,
+                             float d2, GroupSums& result) {
+  const Floats d;
+  Sums sums;
+  for (V& sum : sums.at) sum = hn::Zero(d);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const Candidates all = candidates(columns, i, count, place);
+    const V exponent = hn::Mul(hn::Set(d, -0.5F * d2), all.distance);
+    const V score = hn::IfThenElseZero(all.is_pair, hn::Mul(hn::Set(d, d1), exp_negative(exponent)));
+    const V weight = hn::Mul(hn::Set(d, d2), score);
+    const Vector turn = cross(all.arm, all.pull);
+    const V u[6] = {all.pull.x, all.pull.y, all.pull.z, turn.x, turn.y, turn.z};
+    sums.at[0] = hn::Add(sums.at[0], hn::IfThenElseZero(all.is_pair, hn::Set(d, 1.0F)));
+    sums.at[1] = hn::Add(sums.at[1], score);
+    for (int k = 0; k < 6; ++k) sums.at[2 + k] = hn::NegMulAdd(weight, u[k], sums.at[2 + k]);
+    add_definite(sums.at + 8, all.c, all.arm, weight);
+    add_outer(sums.at + 29, u, hn::Mul(weight, hn::Set(d, d2)));
+  }
+  float totals[kGroupSumCount];
+  for (std::size_t k = 0; k < kGroupSumCount; ++k) totals[k] = hn::GetLane(hn::SumOfLanes(d, sums.at[k]));
+  std::memcpy(&result, totals, sizeof(result));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace landfix::ndt
+HWY_AFTER_NAMESPACE();
+// NOLINTEND(modernize-concat-nested-namespaces)
+
+#if HWY_ONCE
+namespace landfix::ndt {
+
+HWY_EXPORT(sum_pairs_simd);
+HWY_EXPORT(measure_pairs_simd);
+
+GroupSums sum_pairs(const PairColumns& columns, std::size_t count, const GroupPlace& place,
+                    const ScoreConstants& constants) noexcept {
+  GroupSums sums;
+  HWY_DYNAMIC_DISPATCH(sum_pairs_simd)
+  (columns, count, place, static_cast<float>(constants.d1), static_cast<float>(constants.d2), sums);
+  return sums;
+}
+
+void measure_pairs(const PairColumns& columns, std::size_t count, const GroupPlace& place,
+                   std::span<float, kGroupPairs> distances) noexcept {
+  HWY_DYNAMIC_DISPATCH(measure_pairs_simd)(columns, count, place, distances.data());
+}
+
+}  // namespace landfix::ndt
+#endif

@@ -1,0 +1,133 @@
+#include "ndt/pair_lookup.hpp"
+
+#include <bit>
+
+#include "ndt/simd_targets.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "ndt/pair_lookup.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+// NOLINTBEGIN(modernize-concat-nested-namespaces): Highway compiles this part once an instruction set.
+HWY_BEFORE_NAMESPACE();
+namespace landfix::ndt {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::CappedTag<float, 16>;
+
+HWY_ATTR inline std::int32_t floor_of(float value) {
+  const auto truncated = static_cast<std::int32_t>(value);
+  return truncated - (static_cast<float>(truncated) > value ? 1 : 0);
+}
+
+/// Blocks along one axis that a sphere touches.
+struct BlockRange {
+  std::int32_t first;
+  std::int32_t last;
+};
+
+HWY_ATTR inline BlockRange block_range(float position_m, float radius_m, float inverse_resolution_1pm,
+                                       std::int32_t origin) {
+  return {(origin + floor_of((position_m - radius_m) * inverse_resolution_1pm)) >> 2,
+          (origin + floor_of((position_m + radius_m) * inverse_resolution_1pm)) >> 2};
+}
+
+/// 0, 1, 2, ...: made on the spot, it would be put together lane by lane.
+alignas(64) constexpr std::array<std::uint32_t, 16> kCount{0, 1, 2,  3,  4,  5,  6,  7,
+                                                           8, 9, 10, 11, 12, 13, 14, 15};
+
+/// One point, and where the next pair goes.
+struct Seeker {
+  const VoxelMap& map;
+  const GroupPoints& points;
+  PairColumns& columns;
+  std::size_t point;
+  LookUp found;
+};
+
+/// Appends the voxels of a block that are near the point. `corner_m`: the block's, from the group's origin.
+HWY_ATTR inline void seek_in_block(Seeker& seeker, const BlockEntry& block,
+                                   const std::array<float, 3>& corner_m) {
+  const Floats d;
+  const hn::RebindToUnsigned<Floats> du;
+  const auto& position_m = seeker.points.position_m[seeker.point];
+  const auto& point_m = seeker.points.point_m[seeker.point];
+  PairColumns& columns = seeker.columns;
+  const auto count = static_cast<std::size_t>(std::popcount(block.occupancy));
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const std::size_t first = block.first_voxel + i;
+    const auto x = hn::Add(hn::LoadU(d, seeker.map.mean_column_m(0) + first), hn::Set(d, corner_m[0]));
+    const auto y = hn::Add(hn::LoadU(d, seeker.map.mean_column_m(1) + first), hn::Set(d, corner_m[1]));
+    const auto z = hn::Add(hn::LoadU(d, seeker.map.mean_column_m(2) + first), hn::Set(d, corner_m[2]));
+    const auto dx = hn::Sub(x, hn::Set(d, position_m[0]));
+    const auto dy = hn::Sub(y, hn::Set(d, position_m[1]));
+    const auto dz = hn::Sub(z, hn::Set(d, position_m[2]));
+    const auto distance_m2 = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+    const auto is_near =
+        hn::And(hn::Le(distance_m2, hn::Set(d, seeker.points.radius_m * seeker.points.radius_m)),
+                hn::FirstN(d, count - i));
+    const std::size_t near = hn::CountTrue(d, is_near);
+    const std::size_t n = seeker.found.pairs;
+    if (n + near > kGroupPairs) {
+      seeker.found.dropped += near;
+      continue;
+    }
+    // Compressed in a register first: some processors compress into memory by microcode.
+    hn::StoreU(hn::Compress(x, is_near), d, columns.mean_m[0].data() + n);
+    hn::StoreU(hn::Compress(y, is_near), d, columns.mean_m[1].data() + n);
+    hn::StoreU(hn::Compress(z, is_near), d, columns.mean_m[2].data() + n);
+    const auto index = hn::Add(hn::Load(du, kCount.data()), hn::Set(du, static_cast<std::uint32_t>(first)));
+    hn::StoreU(hn::Compress(index, hn::RebindMask(du, is_near)), du, columns.voxel.data() + n);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      hn::StoreU(hn::Set(d, point_m[axis]), d, columns.point_m[axis].data() + n);
+    }
+    hn::StoreU(hn::Set(du, static_cast<std::uint32_t>(seeker.point)), du, columns.point.data() + n);
+    seeker.found.pairs += near;
+  }
+}
+
+HWY_ATTR LookUp look_up_pairs_simd(const VoxelMap& map, const GroupPoints& points, PairColumns& columns) {
+  const auto resolution_m = static_cast<float>(map.resolution_m());
+  const float inverse_resolution_1pm = 1.0F / resolution_m;
+  const Cell& origin = points.origin;
+  Seeker seeker{map, points, columns, 0, {}};
+  for (; seeker.point < points.count; ++seeker.point) {
+    const auto& p = points.position_m[seeker.point];
+    const BlockRange x = block_range(p[0], points.radius_m, inverse_resolution_1pm, origin.i);
+    const BlockRange y = block_range(p[1], points.radius_m, inverse_resolution_1pm, origin.j);
+    const BlockRange z = block_range(p[2], points.radius_m, inverse_resolution_1pm, origin.k);
+    for (std::int32_t bk = z.first; bk <= z.last; ++bk) {
+      for (std::int32_t bj = y.first; bj <= y.last; ++bj) {
+        for (std::int32_t bi = x.first; bi <= x.last; ++bi) {
+          const BlockEntry* const block = map.find_block(block_key(bi, bj, bk));
+          if (block == nullptr) continue;
+          seek_in_block(seeker, *block,
+                        {static_cast<float>(4 * bi - origin.i) * resolution_m,
+                         static_cast<float>(4 * bj - origin.j) * resolution_m,
+                         static_cast<float>(4 * bk - origin.k) * resolution_m});
+        }
+      }
+    }
+  }
+  return seeker.found;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace landfix::ndt
+HWY_AFTER_NAMESPACE();
+// NOLINTEND(modernize-concat-nested-namespaces)
+
+#if HWY_ONCE
+namespace landfix::ndt {
+
+HWY_EXPORT(look_up_pairs_simd);
+
+LookUp look_up_pairs(const VoxelMap& map, const GroupPoints& points, PairColumns& columns) noexcept {
+  return HWY_DYNAMIC_DISPATCH(look_up_pairs_simd)(map, points, columns);
+}
+
+}  // namespace landfix::ndt
+#endif
