@@ -8,6 +8,7 @@
 #include "drivers/ouster/ouster_decoder.hpp"
 #include "drivers/robosense/decoder.hpp"
 #include "drivers/velodyne/block_decoder.hpp"
+#include "drivers/velodyne/hdl64_decoder.hpp"
 #include "drivers/velodyne/vls128_decoder.hpp"
 
 namespace landfix::drivers {
@@ -15,7 +16,7 @@ namespace landfix::drivers {
 /// Made by make_decoder (drivers/make_decoder.hpp).
 class AnyDecoder {
  public:
-  using Alternatives = std::variant<velodyne::BlockDecoder, velodyne::Vls128Decoder, hesai::PandarDecoder,
+  using Alternatives = std::variant<velodyne::BlockDecoder, velodyne::Vls128Decoder, velodyne::Hdl64Decoder, hesai::PandarDecoder,
                                     ouster::OusterDecoder, robosense::Decoder>;
 
   explicit AnyDecoder(const Alternatives& decoder) noexcept : decoder_(decoder) {}

@@ -7,6 +7,7 @@
 #include "drivers/ouster/metadata_file.hpp"
 #include "drivers/robosense/calibration.hpp"
 #include "drivers/velodyne/azimuth_offsets.hpp"
+#include "drivers/velodyne/hdl64_calibration_file.hpp"
 
 namespace landfix::drivers {
 
@@ -21,6 +22,10 @@ Calibration parse_calibration(const SensorModel& model, std::span<const std::byt
       return robosense::parse_calibration(file, name, model.beam_count);
     case PacketFormat::ouster:
       return ouster::parse_metadata(model, file, name);
+    case PacketFormat::velodyne_hdl64_s1:
+    case PacketFormat::velodyne_hdl64_s2:
+    case PacketFormat::velodyne_hdl64_s3:
+      return velodyne::parse_hdl64_calibration(file, name);
     case PacketFormat::velodyne_vls128:
       return velodyne::parse_azimuth_offsets(file, name, model.beams);
     case PacketFormat::velodyne_hdl32e:

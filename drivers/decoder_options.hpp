@@ -21,6 +21,11 @@ struct DecoderOptions {
       true;                      ///< turn each beam on by the time between its firing and the block's azimuth
   bool vertical_offsets = true;  ///< Velodyne: heights of the beams' origins
   bool optical_centre = true;    ///< Hesai, RoboSense: the beams start beside the axis of rotation
+  bool two_point_correction = true;  ///< HDL-64E: ranges nearer than 25 m are corrected by their own values
+
+  /// HDL-64E: a packet's time is that of its end, as the vendor's viewer reads it; otherwise that of its
+  /// first firing, as the S3's manual does.
+  bool hdl64_time_is_packet_end = true;
 };
 
 }  // namespace landfix::drivers

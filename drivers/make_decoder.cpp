@@ -72,6 +72,19 @@ const ouster::Metadata& metadata_of(const SensorModel& model, const Calibration&
   return *metadata;
 }
 
+AnyDecoder make_hdl64(const SensorModel& model, velodyne::Hdl64Generation generation,
+                      const DecoderOptions& options, const Calibration& calibration) {
+  if (std::holds_alternative<std::vector<Beam>>(calibration)) {
+    throw std::runtime_error(std::string(model.name) + ": the calibration is another sensor's");
+  }
+  const auto* const unit = std::get_if<velodyne::Hdl64Calibration>(&calibration);
+  if (unit == nullptr && model.calibration == CalibrationUse::required) {
+    throw std::runtime_error(std::string(model.name) +
+                             " has no points without the unit's calibration: give its db.xml");
+  }
+  return AnyDecoder(velodyne::Hdl64Decoder(generation, unit, options));
+}
+
 }  // namespace
 
 AnyDecoder make_decoder(const SensorModel& model, const DecoderOptions& options,
@@ -81,6 +94,12 @@ AnyDecoder make_decoder(const SensorModel& model, const DecoderOptions& options,
     case PacketFormat::velodyne_vls128:
       return AnyDecoder(
           velodyne::Vls128Decoder(beams_of<velodyne::kVls128Lasers>(model, calibration), options));
+    case PacketFormat::velodyne_hdl64_s1:
+      return make_hdl64(model, velodyne::Hdl64Generation::s1, options, calibration);
+    case PacketFormat::velodyne_hdl64_s2:
+      return make_hdl64(model, velodyne::Hdl64Generation::s2, options, calibration);
+    case PacketFormat::velodyne_hdl64_s3:
+      return make_hdl64(model, velodyne::Hdl64Generation::s3, options, calibration);
     case PacketFormat::velodyne_hdl32e:
       return AnyDecoder(velodyne::BlockDecoder(velodyne::kHdl32e, model.beams, options));
     case PacketFormat::velodyne_vlp32c:

@@ -15,6 +15,9 @@ namespace landfix::drivers {
 /// Which decoder reads a sensor's packets.
 enum class PacketFormat : std::uint8_t {
   velodyne_vls128,
+  velodyne_hdl64_s1,
+  velodyne_hdl64_s2,
+  velodyne_hdl64_s3,
   velodyne_hdl32e,
   velodyne_vlp32c,
   velodyne_vlp16,

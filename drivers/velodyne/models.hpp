@@ -6,6 +6,8 @@
 
 #include "drivers/beam_tables.hpp"
 #include "drivers/sensor_model.hpp"
+#include "drivers/velodyne/hdl64_calibration.hpp"
+#include "drivers/velodyne/hdl64_wire.hpp"
 #include "drivers/velodyne/wire.hpp"
 
 namespace landfix::drivers::velodyne {
@@ -32,6 +34,22 @@ inline bool recognise_vls128(const SensorModel& model, std::span<const std::byte
   return names_itself(model, payload) &&
          (flag_of_block(payload, 3) == kBankFlags[3] || flag_of_block(payload, 7) == kBankFlags[3] ||
           flag_of_block(payload, 11) == kBankFlags[3]);
+}
+
+/// What the order of the blocks leaves open: one return of an S2 looks like that of an S3, and of an S1 that
+/// sends its blocks in pairs.
+inline bool recognise_hdl64(const SensorModel& model, std::span<const std::byte> payload) noexcept {
+  const auto layout = hdl64_layout(payload);
+  if (!layout) return false;
+  switch (*layout) {
+    case Hdl64Layout::single:
+      return true;
+    case Hdl64Layout::dual:
+      return model.format == PacketFormat::velodyne_hdl64_s3;
+    case Hdl64Layout::s1:
+      break;
+  }
+  return model.format == PacketFormat::velodyne_hdl64_s1;
 }
 
 inline constexpr SensorModel kVls128Model{.name = "vls128",
@@ -72,6 +90,79 @@ inline constexpr SensorModel kVls128ApModel = [] {
 inline constexpr std::array kModels = {
     kVls128ApModel,
     kVls128Model,
+    // HDL-64E S2 and S2.1 User's Manual, HDL-64E S3 data sheet 63-9194; they have no table of beams: units
+    // differ by degrees.
+    SensorModel{.name = "hdl64s2",
+                .vendor = "Velodyne",
+                .display_name = "HDL-64E S2, S2.1",
+                .format = PacketFormat::velodyne_hdl64_s2,
+                .beam_count = kHdl64Lasers,
+                .beams = {},
+                .calibration = CalibrationUse::in_stream,
+                .rotation_hz = {5, 10, 15},
+                .min_range_m = 0.9,
+                .max_range_m = 120.0,
+                .range_precision_m = 0.02,
+                .vertical_up_deg = 2.0,
+                .vertical_down_deg = -24.8,
+                .vertical_resolution_deg = 0.33,
+                .horizontal_resolution_at_10_hz_deg = 0.17,
+                .wavelength_nm = 905.0,
+                .diameter_mm = 223.5,
+                .height_mm = 283.0,
+                .weight_kg = 13.2,
+                .data_port = 2368,
+                .payload_sizes = kPayloadSizes,
+                .firing_period_us = 48.0,
+                .recognise = recognise_hdl64},
+    SensorModel{.name = "hdl64s3",
+                .vendor = "Velodyne",
+                .display_name = "HDL-64E S3",
+                .format = PacketFormat::velodyne_hdl64_s3,
+                .beam_count = kHdl64Lasers,
+                .beams = {},
+                .calibration = CalibrationUse::in_stream,
+                .rotation_hz = {5, 10, 15, 20},
+                .min_range_m = 0.9,
+                .max_range_m = 120.0,
+                .range_precision_m = 0.02,
+                .vertical_up_deg = 2.0,
+                .vertical_down_deg = -24.8,
+                .vertical_resolution_deg = 0.33,
+                .horizontal_resolution_at_10_hz_deg = 0.17,
+                .wavelength_nm = 905.0,
+                .diameter_mm = 223.5,
+                .height_mm = 283.0,
+                .weight_kg = 12.7,
+                .data_port = 2368,
+                .payload_sizes = kPayloadSizes,
+                .firing_period_us = 48.0,
+                .max_returns = 2,
+                .recognise = recognise_hdl64},
+    // Its upper block fires three times as often as the lower one: twelve blocks of 32 in 384 us.
+    SensorModel{.name = "hdl64s1",
+                .vendor = "Velodyne",
+                .display_name = "HDL-64E S1",
+                .format = PacketFormat::velodyne_hdl64_s1,
+                .beam_count = kHdl64Lasers,
+                .beams = {},
+                .calibration = CalibrationUse::required,
+                .rotation_hz = {5, 10, 15},
+                .min_range_m = 0.9,
+                .max_range_m = 120.0,
+                .range_precision_m = 0.05,
+                .vertical_up_deg = 2.0,
+                .vertical_down_deg = -24.8,
+                .vertical_resolution_deg = 0.4,
+                .horizontal_resolution_at_10_hz_deg = 0.12,
+                .wavelength_nm = 905.0,
+                .diameter_mm = 223.5,
+                .height_mm = 283.0,
+                .weight_kg = 13.2,
+                .data_port = 2368,
+                .payload_sizes = kPayloadSizes,
+                .firing_period_us = 48.0,
+                .recognise = recognise_hdl64},
     SensorModel{.name = "hdl32e",
                 .vendor = "Velodyne",
                 .display_name = "HDL-32E",

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "drivers/decoder_bench.hpp"
+#include "support/hdl64_packets.hpp"
 #include "support/ouster_packets.hpp"
 #include "support/robosense_packets.hpp"
 #include "support/synthetic_packets.hpp"
@@ -31,6 +32,7 @@ Calibration calibration_of(std::string_view name) {
   const SensorModel& model = *find_sensor_model(name);
   if (model.format == PacketFormat::ouster)
     return test::ouster_metadata(ouster_profile(name), model.beam_count);
+  if (name.starts_with("hdl64")) return velodyne::Hdl64Calibration{};
   return {};
 }
 
@@ -54,6 +56,12 @@ std::vector<std::byte> sound_packet(std::string_view model) {
     test::OusterPacket packet(std::get<ouster::Metadata>(calibration_of(model)));
     packet.set_place(3, test::kReceiveUtcNs);
     for (std::size_t row = 0; row < 32; ++row) packet.set_return(1, row, 500);
+    return {packet.bytes().begin(), packet.bytes().end()};
+  }
+  if (model.starts_with("hdl64")) {
+    // Two returns of an S3; the others' rotor seems to stand still for a moment.
+    auto packet = model == "hdl64s1" ? test::hdl64s1_packet(35950, 11) : test::hdl64_packet(35950, 20, 2);
+    for (std::size_t slot = 0; slot < 32; ++slot) packet.set_return(1, slot, 500);
     return {packet.bytes().begin(), packet.bytes().end()};
   }
   if (model == "vls128") {
@@ -156,7 +164,7 @@ TEST_P(HostilePacket, AFullSweepCountsWhatDoesNotFit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryModel, HostilePacket,
-                         testing::Values("vls128", "hdl32e", "vlp32c", "vlp16", "vlp16hires", "pandar64",
+                         testing::Values("vls128", "hdl64s2", "hdl64s3", "hdl64s1", "hdl32e", "vlp32c", "vlp16", "vlp16hires", "pandar64",
                                          "pandar40p", "os1-64", "os0-32", "os2-128", "rs32", "rs16",
                                          "helios16p"),
                          [](const auto& model) {

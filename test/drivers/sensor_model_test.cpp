@@ -32,6 +32,9 @@ TEST(SensorModel, NamesAreUniqueAndFound) {
 TEST(SensorModel, HoldsASweepOfDualReturnsAtTheSlowestRotation) {
   EXPECT_GT(find_sensor_model("vlp16")->max_points_per_sweep(), 115'741U);
   EXPECT_GT(find_sensor_model("pandar64")->max_points_per_sweep(), 230'400U);
+  EXPECT_GT(find_sensor_model("hdl64s1")->max_points_per_sweep(), 200'000U);
+  EXPECT_GT(find_sensor_model("hdl64s2")->max_points_per_sweep(), 266'667U);
+  EXPECT_GT(find_sensor_model("hdl64s3")->max_points_per_sweep(), 444'445U);
   EXPECT_GT(find_sensor_model("pandar40p")->max_points_per_sweep(), 144'000U);
   EXPECT_GT(find_sensor_model("os1-64")->max_points_per_sweep(), 2U * 64U * 2048U);
 }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "tools/simulator/hdl64_model.hpp"
 #include "tools/simulator/ouster_model.hpp"
 #include "tools/simulator/pandar_model.hpp"
 #include "tools/simulator/robosense_model.hpp"
@@ -23,6 +24,9 @@ struct Entry {
 };
 
 constexpr std::array kModels{
+    Entry{"hdl64s2", [] { return make_hdl64(Hdl64Variant::s2); }},
+    Entry{"hdl64s3", [] { return make_hdl64(Hdl64Variant::s3); }},
+    Entry{"hdl64s1", [] { return make_hdl64(Hdl64Variant::s1); }},
     Entry{"vlp16", [] { return make_vlp16(Vlp16Variant::puck); }},
     Entry{"vlp16hires", [] { return make_vlp16(Vlp16Variant::hi_res); }},
     Entry{"pandar64", [] { return make_pandar(PandarVariant::pandar64); }},

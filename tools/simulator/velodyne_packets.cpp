@@ -49,6 +49,12 @@ void DataPacket::put_factory_bytes(std::uint8_t first, std::uint8_t second) noex
   put_little(bytes_, kTimeAt + 5, second, 1);
 }
 
+void DataPacket::put_text(std::string_view text) noexcept {
+  for (std::size_t i = 0; i < text.size() && i < 6; ++i) {
+    bytes_[kTimeAt + i] = static_cast<std::byte>(text[i]);
+  }
+}
+
 std::vector<std::byte> position_packet(const GpsFix& fix) {
   std::vector<std::byte> payload(512);
   put_little(payload, kTopBoardAt, kBoardCelsius, 1);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "tools/simulator/lidar_model.hpp"
@@ -14,6 +15,7 @@ inline constexpr std::uint16_t kPositionPort = 8308;
 inline constexpr std::size_t kBlocks = 12;
 /// Flag of a block, as its two bytes read little-endian.
 inline constexpr std::uint16_t kUpperBank = 0xEEFF;
+inline constexpr std::uint16_t kLowerBank = 0xDDFF;
 inline constexpr std::uint8_t kStrongestReturn = 0x37;
 
 /// A data packet of 1206 bytes, little-endian throughout:
@@ -26,6 +28,8 @@ class DataPacket {
   void put_time(std::int64_t utc_ns) noexcept;
   /// Return mode and product, except on the HDL-64E.
   void put_factory_bytes(std::uint8_t first, std::uint8_t second) noexcept;
+  /// Text in the place of time and factory bytes, as the HDL-64E S1 has it; at most six characters.
+  void put_text(std::string_view text) noexcept;
 
   [[nodiscard]] std::vector<std::byte> take() noexcept { return std::move(bytes_); }
 

@@ -27,6 +27,10 @@ struct Resolution {
   double time_s;       ///< one step of the sensor's clock
 };
 constexpr Resolution kResolutions[] = {
+    {"hdl64s2", 0.002, 0.0075, 1e-6},
+    {"hdl64s3", 0.002, 0.0075, 1e-6},
+    // One step of its encoder is 0.09 deg, and shows the azimuth of up to a step before. It has no clock.
+    {"hdl64s1", 0.002, 0.095, 1e-6},
     {"vlp16", 0.002, 0.0075, 1e-6},
     {"vlp16hires", 0.002, 0.0075, 1e-6},
     {"pandar64", 0.004, 0.006, 1e-6},

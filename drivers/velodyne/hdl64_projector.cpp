@@ -1,0 +1,185 @@
+#include "drivers/velodyne/hdl64_projector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "drivers/little_endian.hpp"
+
+namespace landfix::drivers::velodyne {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr double kRangeUnitM = 0.002;
+
+// Where the factory measures the corrections (appendix F).
+constexpr double kFarM = 25.04;
+constexpr double kNearSideM = 2.40;
+constexpr double kNearAheadM = 1.93;
+
+/// The full scale of the ranges, and its square's factor in the correction of the intensity (appendix F).
+constexpr double kFocalScaleM = 131.0;
+constexpr float kFocalGain = 256.0F;
+
+/// Admits no return.
+const RangeGate kNothing(kRangeUnitM, 2.0 * kRangeUnitM, kRangeUnitM);
+
+/// Firing times of laser 0 to 31 of a block. S2 and S3: groups of four (appendix E). The S1's documents give
+/// none: its lasers are spread evenly over the block.
+double firing_time_us(Hdl64Timing timing, std::size_t laser) noexcept {
+  constexpr std::array kSingleUs{0.0, 1.26, 2.46, 3.66};
+  constexpr std::array kDualUs{0.0, 1.3, 2.5, 3.7};
+  const auto group = static_cast<double>(laser / 4);
+  switch (timing) {
+    case Hdl64Timing::single:
+      return 6.0 * group + kSingleUs[laser % 4];
+    case Hdl64Timing::dual:
+      return 7.2 * group + kDualUs[laser % 4];
+    case Hdl64Timing::s1:
+      break;
+  }
+  return static_cast<double>(laser);
+}
+
+/// The correction near the sensor as a line over the distance: its value at the axis, and how it grows.
+struct Line {
+  double at_axis_m;
+  double growth;
+};
+Line line(double near_m, double near_correction_m, double far_correction_m) noexcept {
+  const double growth = (far_correction_m - near_correction_m) / (kFarM - near_m);
+  return {near_correction_m - near_m * growth, growth};
+}
+
+}  // namespace
+
+Hdl64Projector::Hdl64Projector(const DecoderOptions& options) noexcept
+    : min_range_m_(options.min_range_m),
+      max_range_m_(options.max_range_m),
+      firing_time_azimuth_(options.firing_time_azimuth),
+      two_point_correction_(options.two_point_correction),
+      vertical_offsets_(options.vertical_offsets) {
+  set_calibration({});
+}
+
+void Hdl64Projector::set_calibration(const Hdl64Calibration& calibration) noexcept {
+  const auto& lasers = calibration.lasers;
+  for (std::size_t i = 0; i < kHdl64Lasers; ++i) {
+    set_laser(i, lasers[i], !calibration.intensity_is_corrected);
+    std::uint16_t below = 0;  // equal elevations, which there are, keep the order of the lasers
+    for (std::size_t other = 0; other < kHdl64Lasers; ++other) {
+      const double difference = lasers[other].elevation_deg - lasers[i].elevation_deg;
+      below = static_cast<std::uint16_t>(below + (difference < 0.0 || (difference == 0.0 && other < i)));
+    }
+    ring_[i] = below;
+  }
+  turn_on();
+}
+
+void Hdl64Projector::set_laser(std::size_t i, const Hdl64Laser& laser, bool correct_intensity) noexcept {
+  rotation_rad_[i] = laser.rotation_deg * kRadPerDeg;
+  range_m_[i] = static_cast<float>(laser.range_m);
+  const double near_side_m = two_point_correction_ ? laser.range_x_m : laser.range_m;
+  const double near_ahead_m = two_point_correction_ ? laser.range_y_m : laser.range_m;
+  const Line side = line(kNearSideM, near_side_m, laser.range_m);
+  const Line ahead = line(kNearAheadM, near_ahead_m, laser.range_m);
+  side_at_axis_m_[i] = static_cast<float>(side.at_axis_m);
+  side_growth_[i] = static_cast<float>(side.growth);
+  ahead_at_axis_m_[i] = static_cast<float>(ahead.at_axis_m);
+  ahead_growth_[i] = static_cast<float>(ahead.growth);
+  cos_elevation_[i] = static_cast<float>(std::cos(laser.elevation_deg * kRadPerDeg));
+  sin_elevation_[i] = static_cast<float>(std::sin(laser.elevation_deg * kRadPerDeg));
+  vertical_offset_m_[i] = vertical_offsets_ ? static_cast<float>(laser.vertical_offset_m) : 0.0F;
+  horizontal_offset_m_[i] = static_cast<float>(laser.horizontal_offset_m);
+  const double out_of_focus = 1.0 - laser.focal_distance_m / kFocalScaleM;
+  focal_slope_[i] = correct_intensity ? static_cast<float>(laser.focal_slope) : 0.0F;
+  focus_[i] = kFocalGain * static_cast<float>(out_of_focus * out_of_focus);
+  min_intensity_[i] = correct_intensity ? laser.min_intensity : 0.0F;
+  max_intensity_[i] = correct_intensity ? laser.max_intensity : 255.0F;
+  // The far correction is off by centimetres at most.
+  gate_[i] = laser.enabled
+                 ? RangeGate(kRangeUnitM, min_range_m_ - laser.range_m, max_range_m_ - laser.range_m)
+                 : kNothing;
+}
+
+void Hdl64Projector::set_rotation(Hdl64Timing timing, double rad_per_s) noexcept {
+  const bool same_speed = std::abs(rad_per_s - turn_rate_rad_per_s_) <= 1e-4 * std::abs(turn_rate_rad_per_s_);
+  if (timing == timing_ && same_speed) return;
+  timing_ = timing;
+  turn_rate_rad_per_s_ = rad_per_s;
+  turn_on();
+}
+
+void Hdl64Projector::turn_on() noexcept {
+  for (std::size_t i = 0; i < kHdl64Lasers; ++i) {
+    const double time_s = 1e-6 * firing_time_us(timing_, i % kLasersPerBlock);
+    const double turned_rad = firing_time_azimuth_ ? turn_rate_rad_per_s_ * time_s : 0.0;
+    cosine_[i] = static_cast<float>(std::cos(turned_rad - rotation_rad_[i]));
+    sine_[i] = static_cast<float>(std::sin(turned_rad - rotation_rad_[i]));
+    time_s_[i] = static_cast<float>(time_s);
+  }
+}
+
+void Hdl64Projector::project(const Block& block, Sweep& sweep) const noexcept {
+  constexpr std::size_t kCount = kLasersPerBlock;
+  const std::size_t first = block.first_laser;
+  std::array<std::uint16_t, kCount> range_raw;
+  alignas(32) std::array<float, kCount> raw;
+  alignas(32) std::array<float, kCount> intensity;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const std::byte* const slot = block.slots + i * kSlotBytes;
+    range_raw[i] = load_little_endian<std::uint16_t>(slot);
+    raw[i] = static_cast<float>(range_raw[i]);
+    intensity[i] = static_cast<float>(std::to_integer<std::uint8_t>(slot[2]));
+  }
+  if (block.duplicates != nullptr) {
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const auto other_raw = load_little_endian<std::uint16_t>(block.duplicates + i * kSlotBytes);
+      if (other_raw == range_raw[i]) range_raw[i] = 0;
+    }
+  }
+
+  const double azimuth_rad = block.azimuth_centideg * (0.01 * kRadPerDeg);
+  const auto block_cosine = static_cast<float>(std::cos(azimuth_rad));
+  const auto block_sine = static_cast<float>(std::sin(azimuth_rad));
+  alignas(32) std::array<float, kCount> x;
+  alignas(32) std::array<float, kCount> y;
+  alignas(32) std::array<float, kCount> z;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const std::size_t laser = first + i;
+    const float cosine = block_cosine * cosine_[laser] - block_sine * sine_[laser];
+    const float sine = block_sine * cosine_[laser] + block_cosine * sine_[laser];
+    const float measured_m = raw[i] * static_cast<float>(kRangeUnitM);
+    const float far_m = measured_m + range_m_[laser];
+    const float horizontal_m = far_m * cos_elevation_[laser];
+    const float offset_m = horizontal_offset_m_[laser];
+    const float side_m = std::abs(horizontal_m * sine - offset_m * cosine);
+    const float ahead_m = std::abs(horizontal_m * cosine + offset_m * sine);
+    const bool is_far = far_m >= static_cast<float>(kFarM);
+    const float near_x_m = side_at_axis_m_[laser] + side_growth_[laser] * side_m;
+    const float near_y_m = ahead_at_axis_m_[laser] + ahead_growth_[laser] * ahead_m;
+    const float range_x_m = measured_m + (is_far ? range_m_[laser] : near_x_m);
+    const float range_y_m = measured_m + (is_far ? range_m_[laser] : near_y_m);
+    // The manual's x points right and its y forward.
+    x[i] = range_y_m * cos_elevation_[laser] * cosine + offset_m * sine;
+    y[i] = offset_m * cosine - range_x_m * cos_elevation_[laser] * sine;
+    z[i] = range_y_m * sin_elevation_[laser] + vertical_offset_m_[laser];
+
+    const float nearness = 1.0F - raw[i] * (1.0F / 65535.0F);
+    const float dimmed = focal_slope_[laser] * std::abs(focus_[laser] - kFocalGain * nearness * nearness);
+    intensity[i] = std::min(std::max(intensity[i] + dimmed, min_intensity_[laser]), max_intensity_[laser]);
+  }
+
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const std::size_t laser = first + i;
+    if (!gate_[laser].admits(range_raw[i])) continue;
+    sweep.push({.x = x[i],
+                .y = y[i],
+                .z = z[i],
+                .intensity = intensity[i],
+                .time_s = block.time_s + time_s_[laser],
+                .ring = ring_[laser]});
+  }
+}
+
+}  // namespace landfix::drivers::velodyne
