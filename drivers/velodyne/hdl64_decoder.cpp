@@ -140,7 +140,13 @@ void Hdl64Decoder::read_status(std::span<const std::byte> payload, std::int64_t 
 void Hdl64Decoder::project_firing(std::span<const std::byte> payload, const Header& header,
                                   std::size_t firing, float time_s, Sweep& sweep) const noexcept {
   const std::size_t blocks = cadence(header.layout).blocks;
+  std::uint16_t azimuth_centideg = header.firing_azimuth_centideg[firing];
+  Hdl64Projector::Heading heading = Hdl64Projector::heading(azimuth_centideg);
   for (std::size_t b = firing * blocks; b < (firing + 1) * blocks; ++b) {
+    if (hdl64_azimuth(payload, b) != azimuth_centideg) {
+      azimuth_centideg = hdl64_azimuth(payload, b);
+      heading = Hdl64Projector::heading(azimuth_centideg);
+    }
     const auto slots_of = [&](std::size_t block) {
       return payload.data() + block * sizeof(WireBlock) + offsetof(WireBlock, slots);
     };
@@ -149,7 +155,7 @@ void Hdl64Decoder::project_firing(std::span<const std::byte> payload, const Head
     projector_.project({.slots = slots_of(b),
                         .duplicates = is_second ? slots_of(b - 2) : nullptr,
                         .first_laser = hdl64_flag(payload, b) == kUpperBlock ? std::size_t{0} : 32,
-                        .azimuth_centideg = hdl64_azimuth(payload, b),
+                        .heading = heading,
                         .time_s = time_s},
                        sweep);
   }

@@ -120,7 +120,26 @@ void Hdl64Projector::turn_on() noexcept {
   }
 }
 
+Hdl64Projector::Heading Hdl64Projector::heading(std::uint16_t azimuth_centideg) noexcept {
+  const double azimuth_rad = azimuth_centideg * (0.01 * kRadPerDeg);
+  return {static_cast<float>(std::cos(azimuth_rad)), static_cast<float>(std::sin(azimuth_rad))};
+}
+
 void Hdl64Projector::project(const Block& block, Sweep& sweep) const noexcept {
+  if (const auto room = sweep.unused(); room.size() >= kLasersPerBlock) {
+    const std::size_t count = write_points(block, room.first<kLasersPerBlock>());
+    // The lasers fire in the order of their slots.
+    sweep.take(count, count == 0 ? 0.0F : room[count - 1].time_s);
+    return;
+  }
+  std::array<Point, kLasersPerBlock> points;  // what does not fit is counted
+  const std::size_t count = write_points(block, points);
+  for (const Point& point : std::span(points).first(count)) sweep.push(point);
+}
+
+/// Writes all points one after the other, those that count over those that do not; returns how many do.
+std::size_t Hdl64Projector::write_points(const Block& block,
+                                         std::span<Point, kLasersPerBlock> points) const noexcept {
   constexpr std::size_t kCount = kLasersPerBlock;
   const std::size_t first = block.first_laser;
   std::array<std::uint16_t, kCount> range_raw;
@@ -139,9 +158,7 @@ void Hdl64Projector::project(const Block& block, Sweep& sweep) const noexcept {
     }
   }
 
-  const double azimuth_rad = block.azimuth_centideg * (0.01 * kRadPerDeg);
-  const auto block_cosine = static_cast<float>(std::cos(azimuth_rad));
-  const auto block_sine = static_cast<float>(std::sin(azimuth_rad));
+  const auto [block_cosine, block_sine] = block.heading;
   alignas(32) std::array<float, kCount> x;
   alignas(32) std::array<float, kCount> y;
   alignas(32) std::array<float, kCount> z;
@@ -170,16 +187,18 @@ void Hdl64Projector::project(const Block& block, Sweep& sweep) const noexcept {
     intensity[i] = std::min(std::max(intensity[i] + dimmed, min_intensity_[laser]), max_intensity_[laser]);
   }
 
+  std::size_t count = 0;
   for (std::size_t i = 0; i < kCount; ++i) {
     const std::size_t laser = first + i;
-    if (!gate_[laser].admits(range_raw[i])) continue;
-    sweep.push({.x = x[i],
-                .y = y[i],
-                .z = z[i],
-                .intensity = intensity[i],
-                .time_s = block.time_s + time_s_[laser],
-                .ring = ring_[laser]});
+    points[count] = {.x = x[i],
+                     .y = y[i],
+                     .z = z[i],
+                     .intensity = intensity[i],
+                     .time_s = block.time_s + time_s_[laser],
+                     .ring = ring_[laser]};
+    count += gate_[laser].admits(range_raw[i]) ? 1U : 0U;
   }
+  return count;
 }
 
 }  // namespace landfix::drivers::velodyne

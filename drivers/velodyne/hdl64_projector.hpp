@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "drivers/block_projector.hpp"
 #include "drivers/decoder_options.hpp"
@@ -33,11 +34,18 @@ class Hdl64Projector {
   /// Cheap where neither has changed (the speed by more than one part in 10,000).
   void set_rotation(Hdl64Timing timing, double rad_per_s) noexcept;
 
+  /// Where the rotor points; the blocks of a firing share it.
+  struct Heading {
+    float cosine = 1.0F;
+    float sine = 0.0F;
+  };
+  [[nodiscard]] static Heading heading(std::uint16_t azimuth_centideg) noexcept;
+
   struct Block {
     const std::byte* slots = nullptr;       ///< 32 x 3 bytes
     const std::byte* duplicates = nullptr;  ///< of the other return: equal ranges are dropped; may be null
     std::size_t first_laser = 0;            ///< 0 or 32
-    std::uint16_t azimuth_centideg = 0;
+    Heading heading;
     float time_s = 0.0F;  ///< of the block's first firing, since the start of the sweep
   };
   /// Appends the points of a block, in the order of its slots.
@@ -49,6 +57,8 @@ class Hdl64Projector {
 
   void set_laser(std::size_t i, const Hdl64Laser& laser, bool correct_intensity) noexcept;
   void turn_on() noexcept;
+  [[nodiscard]] std::size_t write_points(const Block& block,
+                                         std::span<Point, kLasersPerBlock> points) const noexcept;
 
   double min_range_m_;
   double max_range_m_;
