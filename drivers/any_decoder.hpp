@@ -16,8 +16,8 @@ namespace landfix::drivers {
 /// Made by make_decoder (drivers/make_decoder.hpp).
 class AnyDecoder {
  public:
-  using Alternatives = std::variant<velodyne::BlockDecoder, velodyne::Vls128Decoder, velodyne::Hdl64Decoder, hesai::PandarDecoder,
-                                    ouster::OusterDecoder, robosense::Decoder>;
+  using Alternatives = std::variant<velodyne::BlockDecoder, velodyne::Vls128Decoder, velodyne::Hdl64Decoder,
+                                    hesai::PandarDecoder, ouster::OusterDecoder, robosense::Decoder>;
 
   explicit AnyDecoder(const Alternatives& decoder) noexcept : decoder_(decoder) {}
 

@@ -5,13 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-// The widest instructions that the processor has, chosen when the program is loaded (LANDFIX_CLONES comes
-// from drivers/CMakeLists.txt). None that fuse a multiplication and an addition: they would round otherwise.
-#ifdef LANDFIX_CLONES
-#define LANDFIX_WIDEST __attribute__((target_clones("avx2", "default")))
-#else
-#define LANDFIX_WIDEST
-#endif
+#include "drivers/widest.hpp"
 
 namespace landfix::drivers {
 namespace {

@@ -6,8 +6,6 @@
 namespace landfix::drivers::velodyne {
 namespace {
 
-/// Some firmware counts on for some milliseconds before it returns to zero at the full hour.
-constexpr std::uint32_t kLatestTopOfHourUs = 3'601'000'000;
 constexpr std::int64_t kSecondNs = 1'000'000'000;
 constexpr std::int64_t kHourNs = 3600 * kSecondNs;
 /// The blocks of a pair fire together; more than this between their azimuths is damage.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "drivers/little_endian.hpp"
+#include "drivers/widest.hpp"
 
 namespace landfix::drivers::velodyne {
 namespace {
@@ -138,8 +139,8 @@ void Hdl64Projector::project(const Block& block, Sweep& sweep) const noexcept {
 }
 
 /// Writes all points one after the other, those that count over those that do not; returns how many do.
-std::size_t Hdl64Projector::write_points(const Block& block,
-                                         std::span<Point, kLasersPerBlock> points) const noexcept {
+LANDFIX_WIDEST std::size_t Hdl64Projector::write_points(
+    const Block& block, std::span<Point, kLasersPerBlock> points) const noexcept {
   constexpr std::size_t kCount = kLasersPerBlock;
   const std::size_t first = block.first_laser;
   std::array<std::uint16_t, kCount> range_raw;
