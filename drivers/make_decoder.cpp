@@ -90,6 +90,9 @@ AnyDecoder make_hdl64(const SensorModel& model, velodyne::Hdl64Generation genera
 AnyDecoder make_decoder(const SensorModel& model, const DecoderOptions& options,
                         const Calibration& calibration) {
   check(model, options);
+  if (model.calibration == CalibrationUse::none && !std::holds_alternative<std::monostate>(calibration)) {
+    throw std::runtime_error(std::string(model.name) + " takes no calibration, its beams are the model's");
+  }
   switch (model.format) {
     case PacketFormat::velodyne_vls128:
       return AnyDecoder(
