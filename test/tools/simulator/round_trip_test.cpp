@@ -31,6 +31,11 @@ constexpr Resolution kResolutions[] = {
     {"hdl64s3", 0.002, 0.0075, 1e-6},
     // One step of its encoder is 0.09 deg, and shows the azimuth of up to a step before. It has no clock.
     {"hdl64s1", 0.002, 0.095, 1e-6},
+    // The first packets are timed by the manual's slot, until the unit's is measured.
+    {"vls128ap", 0.004, 0.0075, 7e-6},
+    {"vls128", 0.004, 0.0075, 7e-6},
+    {"hdl32e", 0.002, 0.0075, 1e-6},
+    {"vlp32c", 0.004, 0.0075, 1e-6},
     {"vlp16", 0.002, 0.0075, 1e-6},
     {"vlp16hires", 0.002, 0.0075, 1e-6},
     {"pandar64", 0.004, 0.006, 1e-6},
