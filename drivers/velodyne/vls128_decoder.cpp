@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "drivers/velodyne/position_packet.hpp"
+
 namespace landfix::drivers::velodyne {
 namespace {
 
@@ -141,7 +143,7 @@ void Vls128Decoder::fit_projectors() noexcept {
 }
 
 DecodeResult Vls128Decoder::decode(const Packet& packet, SweepPair& sweeps) noexcept {
-  if (packet.payload.size() == kPositionBytes) return {.status = DecodeStatus::telemetry};
+  if (packet.payload.size() == kPositionBytes) return {.status = read_position(packet, builder_)};
   if (packet.payload.size() != sizeof(WirePacket)) return {.status = DecodeStatus::wrong_size};
   WirePacket wire;
   std::memcpy(&wire, packet.payload.data(), sizeof(wire));

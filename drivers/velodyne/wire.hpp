@@ -39,9 +39,6 @@ struct WirePacket {
 static_assert(sizeof(WirePacket) == 1206);
 static_assert(alignof(WirePacket) == 1);
 
-/// Size of a position packet (section 9.3.2).
-inline constexpr std::size_t kPositionBytes = 512;
-
 /// The byte `return_mode`.
 enum class ReturnMode : std::uint8_t {
   unknown = 0x00,  ///< firmware before 2016 leaves both factory bytes zero

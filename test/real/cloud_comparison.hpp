@@ -5,11 +5,16 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
+#include <iostream>
 #include <numbers>
 #include <span>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "drivers/make_decoder.hpp"
 #include "ndt/pcd.hpp"
@@ -102,6 +107,53 @@ struct RecordedPacket {
     packets.push_back({{packet.payload.begin(), packet.payload.end()}, packet.receive_utc_ns});
   }
   return packets;
+}
+
+/// The sweeps of packets, whole and in order; the last one is what was left. Every packet must be decoded.
+[[nodiscard]] inline std::vector<std::vector<drivers::Point>> decode_sweeps(
+    std::string_view name, std::span<const RecordedPacket> packets, const drivers::DecoderOptions& options,
+    const drivers::Calibration& calibration = {}) {
+  const drivers::SensorModel& model = *drivers::find_sensor_model(name);
+  drivers::AnyDecoder decoder = drivers::make_decoder(model, options, calibration);
+  std::vector<drivers::Point> storage(2 * model.max_points_per_sweep());
+  drivers::SweepPair sweeps(storage);
+  std::vector<std::vector<drivers::Point>> all;
+  const auto keep = [&] {
+    all.emplace_back(sweeps.completed().points().begin(), sweeps.completed().points().end());
+  };
+  for (const RecordedPacket& packet : packets) {
+    const drivers::DecodeResult result = decoder.decode(packet.view(), sweeps);
+    EXPECT_EQ(result.status, drivers::DecodeStatus::decoded);
+    if (result.sweep_completed) keep();
+  }
+  if (decoder.flush(sweeps)) keep();
+  EXPECT_EQ(decoder.counters().lost_packets, 0U);
+  return all;
+}
+
+/// A cloud as the vendor's viewer writes it: right, forward, up, intensity.
+[[nodiscard]] inline std::vector<Return> read_viewer_csv(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);  // header
+  std::vector<Return> returns;
+  while (std::getline(file, line)) {
+    std::istringstream row(line);
+    double right_m = 0.0;
+    double forward_m = 0.0;
+    double up_m = 0.0;
+    double intensity = 0.0;
+    char comma = 0;
+    row >> right_m >> comma >> forward_m >> comma >> up_m >> comma >> intensity;
+    returns.push_back(to_return(forward_m, -right_m, up_m, intensity));
+  }
+  return returns;
+}
+
+/// On stdout, for the log.
+inline void print(const char* what, const Differences& most) {
+  std::cout << what << ", most: range " << most.range_m << " m, height " << most.height_m << " m, azimuth "
+            << most.azimuth_deg << " deg, rms " << most.azimuth_rms_deg << " deg\n";
 }
 
 }  // namespace landfix::test

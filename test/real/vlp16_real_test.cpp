@@ -1,7 +1,6 @@
 // The VLP-16's recorded packets against clouds that others decoded from them.
 #include <cstring>
-#include <fstream>
-#include <sstream>
+#include <iostream>
 
 #include <gtest/gtest.h>
 
@@ -21,44 +20,6 @@ using velodyne::WirePacket;
 
 /// The references leave the vertical offsets out.
 constexpr DecoderOptions kAsTheReferences{.vertical_offsets = false};
-
-/// The sweeps of packets, whole and in order; the last one is what was left.
-std::vector<std::vector<Point>> sweeps_of(std::span<const RecordedPacket> packets,
-                                          const DecoderOptions& options) {
-  const SensorModel& model = *find_sensor_model("vlp16");
-  AnyDecoder decoder = make_decoder(model, options);
-  std::vector<Point> storage(2 * model.max_points_per_sweep());
-  SweepPair sweeps(storage);
-  std::vector<std::vector<Point>> all;
-  const auto keep = [&] {
-    all.emplace_back(sweeps.completed().points().begin(), sweeps.completed().points().end());
-  };
-  for (const RecordedPacket& packet : packets) {
-    const DecodeResult result = decoder.decode(packet.view(), sweeps);
-    EXPECT_EQ(result.status, DecodeStatus::decoded);
-    if (result.sweep_completed) keep();
-  }
-  if (decoder.flush(sweeps)) keep();
-  return all;
-}
-
-std::vector<Return> read_csv(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::string line;
-  std::getline(file, line);  // header
-  std::vector<Return> returns;
-  while (std::getline(file, line)) {
-    std::istringstream row(line);
-    double right_m = 0.0;
-    double forward_m = 0.0;
-    double up_m = 0.0;
-    double intensity = 0.0;
-    char comma = 0;
-    row >> right_m >> comma >> forward_m >> comma >> up_m >> comma >> intensity;
-    returns.push_back(test::to_return(forward_m, -right_m, up_m, intensity));
-  }
-  return returns;
-}
 
 std::vector<Return> read_dual_reference(const std::filesystem::path& path) {
   constexpr std::string_view kColumns[] = {"x", "y", "z", "intensity"};
@@ -82,8 +43,8 @@ TEST(Vlp16RealData, AgreesWithTheVendorsViewerOnAMovingCar) {
   LANDFIX_REAL_DATA(reference, "vlp16/moving-sweep.csv");
   const auto packets = test::read_packets(capture, 2368);
   EXPECT_EQ(packets.size(), 291U);
-  const auto sweeps = sweeps_of(packets, kAsTheReferences);
-  const auto theirs = read_csv(reference);
+  const auto sweeps = test::decode_sweeps("vlp16", packets, kAsTheReferences);
+  const auto theirs = test::read_viewer_csv(reference);
   ASSERT_GT(sweeps.size(), 1U);
   const auto ours = test::to_returns(sweeps[1]);
   ASSERT_EQ(ours.size(), theirs.size());
@@ -152,7 +113,7 @@ TEST(Vlp16RealData, AgreesWithTheReferenceOnDualReturns) {
   EXPECT_EQ(packets.size(), 603U);
   std::vector<Kept> kept;
   for (RecordedPacket& packet : packets) select_as_the_reference(packet, kept);
-  const auto sweeps = sweeps_of(packets, kAsTheReferences);
+  const auto sweeps = test::decode_sweeps("vlp16", packets, kAsTheReferences);
   ASSERT_GT(sweeps.size(), 3U);
   const std::size_t first = sweeps[0].size() + sweeps[1].size() + sweeps[2].size();
   const auto ours = test::to_returns(sweeps[3]);

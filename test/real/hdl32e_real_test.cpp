@@ -1,0 +1,30 @@
+// The HDL-32E's recorded packets against a cloud that the vendor's viewer decoded from them.
+#include <gtest/gtest.h>
+
+#include "real/cloud_comparison.hpp"
+#include "support/test_data.hpp"
+
+namespace landfix::drivers {
+namespace {
+
+TEST(Hdl32eRealData, AgreesWithTheVendorsViewer) {
+  LANDFIX_REAL_DATA(capture, "hdl32e/capture.pcap");
+  LANDFIX_REAL_DATA(reference, "hdl32e/capture-sweep.csv");
+  const auto packets = test::read_packets(capture, 2368);
+  EXPECT_EQ(packets.size(), 603U);
+  const auto sweeps = test::decode_sweeps("hdl32e", packets, {});
+  const auto theirs = test::read_viewer_csv(reference);
+  ASSERT_GT(sweeps.size(), 1U);
+  const auto ours = test::to_returns(sweeps[1]);
+  ASSERT_EQ(ours.size(), theirs.size());
+  const test::Differences most = test::compare(ours, theirs);
+  test::print("hdl32e", most);
+  EXPECT_EQ(most.intensity, 0.0);
+  EXPECT_LT(most.range_m, 1e-3);
+  EXPECT_LT(most.height_m, 1e-3);
+  // The viewer rounds azimuths to 0.01 deg.
+  EXPECT_LT(most.azimuth_deg, 0.015);
+}
+
+}  // namespace
+}  // namespace landfix::drivers

@@ -1,0 +1,43 @@
+// Position packets as two cars recorded them.
+#include <gtest/gtest.h>
+
+#include "drivers/velodyne/position_packet.hpp"
+#include "real/cloud_comparison.hpp"
+#include "support/test_data.hpp"
+
+namespace landfix::drivers {
+namespace {
+
+TEST(PositionPacketRealData, SaysWhereTheMovingCarIsAndWhatTimeItIs) {
+  LANDFIX_REAL_DATA(capture, "vlp16/moving.pcap");
+  const auto packets = test::read_packets(capture, 8308);
+  ASSERT_EQ(packets.size(), 56U);
+  std::int64_t last_ns = 0;
+  for (const auto& recorded : packets) {
+    const auto packet = velodyne::parse_position_packet(recorded.payload);
+    ASSERT_TRUE(packet && packet->utc_ns && packet->fix);
+    EXPECT_EQ(packet->pulse, velodyne::PulseState::locked);
+    EXPECT_NEAR(packet->fix->latitude_deg, 37.1303, 0.001);
+    EXPECT_NEAR(packet->fix->longitude_deg, -121.6545, 0.001);
+    EXPECT_NEAR(packet->fix->speed_mps, 5.3, 0.2);
+    EXPECT_GT(*packet->utc_ns, last_ns);
+    last_ns = *packet->utc_ns;
+    // The computer's clock was right to a second or so.
+    EXPECT_LT(std::abs(*packet->utc_ns - recorded.receive_utc_ns), 2'000'000'000);
+  }
+}
+
+TEST(PositionPacketRealData, MayHaveNoReceiver) {
+  LANDFIX_REAL_DATA(capture, "hdl32e/capture.pcap");
+  const auto packets = test::read_packets(capture, 8308);
+  ASSERT_EQ(packets.size(), 65U);
+  for (const auto& recorded : packets) {
+    const auto packet = velodyne::parse_position_packet(recorded.payload);
+    ASSERT_TRUE(packet);
+    EXPECT_FALSE(packet->utc_ns);
+    EXPECT_FALSE(packet->fix);
+  }
+}
+
+}  // namespace
+}  // namespace landfix::drivers
