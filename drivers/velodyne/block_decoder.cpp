@@ -12,8 +12,8 @@ std::array<FiringSlot, kBlockSlots> firing_slots(const BlockLayout& layout, std:
   std::array<FiringSlot, kBlockSlots> slots;
   for (std::size_t i = 0; i < kBlockSlots; ++i) {
     const Beam& beam = beams[i % layout.lasers];
-    const double sequence_us =
-        static_cast<double>(i / layout.lasers) * static_cast<double>(layout.sequence_ns) * 1e-3;
+    const std::size_t sequence = i / layout.lasers;
+    const double sequence_us = static_cast<double>(sequence) * static_cast<double>(layout.sequence_ns) * 1e-3;
     const double time_s = (sequence_us + beam.firing_time_us) * 1e-6;
     slots[i] = {.elevation_deg = beam.elevation_deg,
                 .azimuth_offset_deg = beam.azimuth_offset_deg,

@@ -69,7 +69,7 @@ class DbXml {
   }
   [[nodiscard]] double optional(const pugi::xml_node& laser, const char* key) const {
     const pugi::xml_node node = laser.child(key);
-    return node ? number(node) : 0.0;
+    return node.empty() ? 0.0 : number(node);
   }
 
   void check_range_unit() const {

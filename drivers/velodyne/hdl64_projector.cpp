@@ -30,7 +30,8 @@ const RangeGate kNothing(kRangeUnitM, 2.0 * kRangeUnitM, kRangeUnitM);
 double firing_time_us(Hdl64Timing timing, std::size_t laser) noexcept {
   constexpr std::array kSingleUs{0.0, 1.26, 2.46, 3.66};
   constexpr std::array kDualUs{0.0, 1.3, 2.5, 3.7};
-  const auto group = static_cast<double>(laser / 4);
+  const std::size_t number = laser / 4;
+  const auto group = static_cast<double>(number);
   switch (timing) {
     case Hdl64Timing::single:
       return 6.0 * group + kSingleUs[laser % 4];
@@ -70,7 +71,7 @@ void Hdl64Projector::set_calibration(const Hdl64Calibration& calibration) noexce
     std::uint16_t below = 0;  // equal elevations, which there are, keep the order of the lasers
     for (std::size_t other = 0; other < kHdl64Lasers; ++other) {
       const double difference = lasers[other].elevation_deg - lasers[i].elevation_deg;
-      below = static_cast<std::uint16_t>(below + (difference < 0.0 || (difference == 0.0 && other < i)));
+      if (difference < 0.0 || (difference == 0.0 && other < i)) ++below;
     }
     ring_[i] = below;
   }
@@ -95,8 +96,8 @@ void Hdl64Projector::set_laser(std::size_t i, const Hdl64Laser& laser, bool corr
   const double out_of_focus = 1.0 - laser.focal_distance_m / kFocalScaleM;
   focal_slope_[i] = correct_intensity ? static_cast<float>(laser.focal_slope) : 0.0F;
   focus_[i] = kFocalGain * static_cast<float>(out_of_focus * out_of_focus);
-  min_intensity_[i] = correct_intensity ? laser.min_intensity : 0.0F;
-  max_intensity_[i] = correct_intensity ? laser.max_intensity : 255.0F;
+  min_intensity_[i] = correct_intensity ? static_cast<float>(laser.min_intensity) : 0.0F;
+  max_intensity_[i] = correct_intensity ? static_cast<float>(laser.max_intensity) : 255.0F;
   // The far correction is off by centimetres at most.
   gate_[i] = laser.enabled
                  ? RangeGate(kRangeUnitM, min_range_m_ - laser.range_m, max_range_m_ - laser.range_m)

@@ -108,7 +108,7 @@ class LasersYaml {
     if (count && number(count, "num_lasers") != entries) {
       fail(count, "num_lasers does not count the entries of `lasers`: is the file whole?");
     }
-    const auto missing = std::ranges::find(seen, false);
+    const auto* const missing = std::ranges::find(seen, false);
     if (missing == seen.end()) return;
     if (!count || std::ranges::none_of(seen, [](bool is) { return is; })) {
       fail(lasers, "laser " + std::to_string(missing - seen.begin()) +

@@ -19,7 +19,10 @@ constexpr std::uint8_t kProductOfTheManual = 0x63;  // as the VLP-16's manual li
 constexpr double kSlotStep = 0.001;
 
 /// Slots from the first group's firing to the laser's.
-double firing_slot(std::size_t laser) noexcept { return static_cast<double>(laser / 8 + laser / 64); }
+double firing_slot(std::size_t laser) noexcept {
+  const std::size_t slot = laser / 8 + laser / 64;
+  return static_cast<double>(slot);
+}
 
 std::array<FiringSlot, kBlockSlots> slots_of_bank(std::span<const Beam, kVls128Lasers> beams,
                                                   std::size_t bank) noexcept {

@@ -67,6 +67,7 @@ std::uint16_t rotor_angle_centideg(std::int64_t utc_ns) noexcept {
 
 std::vector<std::string_view> lidar_model_names() {
   std::vector<std::string_view> names;
+  names.reserve(kModels.size());
   for (const Entry& entry : kModels) names.push_back(entry.name);
   return names;
 }
