@@ -8,9 +8,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/hdl64_calibration_text.hpp"
+
 namespace landfix::drivers::velodyne {
 namespace {
 
+using test::kHdl64XmlEnd;
+using test::xml_array;
+using test::xml_points;
+using test::yaml_lasers;
 using testing::HasSubstr;
 
 Hdl64Calibration parse(std::string_view text) {
@@ -32,36 +38,13 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-/// A line an element, so that the lines of errors are known: the header has 3, laser i begins at 4 + 11 i.
-std::string xml_points(int count = 64) {
-  std::string text = "<boost_serialization>\n<DB><distLSB_>0.2</distLSB_>\n<points_><count>64</count>\n";
-  for (int i = 0; i < count; ++i) {
-    const std::string id = std::to_string(i);
-    text += "<item><px>\n<id_>" + id + "</id_>\n<rotCorrection_>-1.5</rotCorrection_>\n<vertCorrection_>-" +
-            id +
-            ".25</vertCorrection_>\n<distCorrection_>125</distCorrection_>\n"
-            "<distCorrectionX_>131.5</distCorrectionX_>\n<distCorrectionY_>128</distCorrectionY_>\n"
-            "<vertOffsetCorrection_>20.5</vertOffsetCorrection_>\n"
-            "<horizOffsetCorrection_>-2.6</horizOffsetCorrection_>\n"
-            "<focalDistance_>1050</focalDistance_><focalSlope_>1.85</focalSlope_>\n</px></item>\n";
-  }
-  return text + "</points_>\n";
-}
-const std::string kXmlEnd = "</DB></boost_serialization>\n";
-
-std::string xml_array(const std::string& name, const std::vector<int>& values) {
-  std::string text = "<" + name + "><count>64</count>\n";
-  for (const int value : values) text += "<item>" + std::to_string(value) + "</item>\n";
-  return text + "</" + name + ">\n";
-}
-
 TEST(Hdl64DbXml, ReadsDegreesAndCentimetres) {
   std::vector<int> enabled(64, 1);
   enabled[7] = 0;
   const auto calibration =
       parse("\xEF\xBB\xBF<?xml version=\"1.0\" ?>\r\n<!DOCTYPE boost_serialization>\n" + xml_points() +
             xml_array("enabled_", enabled) + xml_array("minIntensity_", std::vector<int>(64, 20)) +
-            xml_array("maxIntensity_", std::vector<int>(64, 240)) + kXmlEnd);
+            xml_array("maxIntensity_", std::vector<int>(64, 240)) + kHdl64XmlEnd);
   const Hdl64Laser& laser = calibration.lasers[3];
   EXPECT_DOUBLE_EQ(laser.rotation_deg, -1.5);
   EXPECT_DOUBLE_EQ(laser.elevation_deg, -3.25);
@@ -80,10 +63,10 @@ TEST(Hdl64DbXml, ReadsDegreesAndCentimetres) {
 }
 
 TEST(Hdl64DbXml, DoesWithoutWhatOldFilesLack) {
-  const auto calibration = parse(xml_points() + kXmlEnd);
+  const auto calibration = parse(xml_points() + kHdl64XmlEnd);
   EXPECT_TRUE(calibration.lasers[63].enabled);
   EXPECT_EQ(calibration.lasers[63].max_intensity, 255);
-  std::string old = xml_points() + kXmlEnd;
+  std::string old = xml_points() + kHdl64XmlEnd;
   for (const char* const element :
        {"<distCorrectionX_>131.5</distCorrectionX_>", "<distCorrectionY_>128</distCorrectionY_>",
         "<focalDistance_>1050</focalDistance_><focalSlope_>1.85</focalSlope_>"}) {
@@ -94,12 +77,12 @@ TEST(Hdl64DbXml, DoesWithoutWhatOldFilesLack) {
   EXPECT_DOUBLE_EQ(of_old.lasers[0].focal_slope, 0.0);
   std::vector<int> all_but_the_last(64, 1);
   all_but_the_last[63] = 0;
-  const auto without = parse(xml_points(63) + xml_array("enabled_", all_but_the_last) + kXmlEnd);
+  const auto without = parse(xml_points(63) + xml_array("enabled_", all_but_the_last) + kHdl64XmlEnd);
   EXPECT_FALSE(without.lasers[63].enabled);
 }
 
 TEST(Hdl64DbXml, SaysWhatIsWrongAndWhere) {
-  const std::string sound = xml_points() + kXmlEnd;
+  const std::string sound = xml_points() + kHdl64XmlEnd;
   const auto with = [&sound](const std::string& from, const std::string& to) {
     return error_of(replaced(sound, from, to));
   };
@@ -117,30 +100,15 @@ TEST(Hdl64DbXml, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(with(">-3.25<", ">-93.25<"), HasSubstr("unit:37: laser 3 has an angle beyond 90"));
   EXPECT_THAT(with("<vertCorrection_>-3.25</vertCorrection_>", ""),
               HasSubstr("unit:37: a laser without <vertCorrection_>"));
-  EXPECT_THAT(error_of(xml_points(63) + kXmlEnd), HasSubstr("unit:3: laser 63 of 64 is missing"));
-  EXPECT_THAT(error_of(xml_points() + xml_array("enabled_", std::vector<int>(65, 1)) + kXmlEnd),
+  EXPECT_THAT(error_of(xml_points(63) + kHdl64XmlEnd), HasSubstr("unit:3: laser 63 of 64 is missing"));
+  EXPECT_THAT(error_of(xml_points() + xml_array("enabled_", std::vector<int>(65, 1)) + kHdl64XmlEnd),
               HasSubstr("<enabled_> has more than 64 items"));
-  EXPECT_THAT(error_of(xml_points() + xml_array("minIntensity_", {256}) + kXmlEnd), HasSubstr("0 to 255"));
-  EXPECT_THAT(
-      error_of(xml_points() + xml_array("minIntensity_", {9}) + xml_array("maxIntensity_", {8}) + kXmlEnd),
-      HasSubstr("laser 0 has a least intensity above its greatest"));
+  EXPECT_THAT(error_of(xml_points() + xml_array("minIntensity_", {256}) + kHdl64XmlEnd),
+              HasSubstr("0 to 255"));
+  EXPECT_THAT(error_of(xml_points() + xml_array("minIntensity_", {9}) + xml_array("maxIntensity_", {8}) +
+                       kHdl64XmlEnd),
+              HasSubstr("laser 0 has a least intensity above its greatest"));
   EXPECT_THAT(error_of(std::string((1 << 20) + 1, '<')), HasSubstr("longer than any calibration"));
-}
-
-/// A line a key: the header has one, laser i begins at 2 + 12 i.
-std::string yaml_lasers(int count = 64) {
-  std::string text = "lasers:\n";
-  for (int i = 0; i < count; ++i) {
-    const std::string id = std::to_string(i);
-    text +=
-        "- dist_correction: 1.25\n  dist_correction_x: 1.315\n  dist_correction_y: 1.28\n"
-        "  focal_distance: 10.5\n  focal_slope: 1.85\n  horiz_offset_correction: -0.026\n  laser_id: " +
-        id +
-        "\n  min_intensity: 20\n  rot_correction: -0.025\n  two_pt_correction_available: true\n"
-        "  vert_correction: -0.0" +
-        (i < 10 ? "0" : "") + id + "\n  vert_offset_correction: 0.205\n";
-  }
-  return text;
 }
 
 TEST(Hdl64Yaml, ReadsRadiansAndMetres) {

@@ -9,6 +9,7 @@
 
 #include "ndt/map_file.hpp"
 #include "ndt/objective.hpp"
+#include "ndt/pair_groups.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace landfix::ndt;
@@ -30,7 +31,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const VoxelMap map(image.bytes());
     std::vector<Eigen::Vector3f> scan;
     for (float x = -8.0F; x < 8.0F; x += 1.7F) scan.emplace_back(x, 0.3F * x, -0.2F * x);
-    (void)evaluate(map, scan, Pose::Identity(), Covariance::wide, {});
+    PairGroups groups(scan.size());
+    groups.assign(scan, 1, {});
+    (void)evaluate(map, groups, Pose::Identity(), Covariance::wide, {});
   } catch (const std::runtime_error&) {
   }
   return 0;
