@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <optional>
+#include <vector>
 
 #include <pugixml.hpp>
 
@@ -18,7 +17,10 @@ constexpr double kRangeUnit_cm = 0.2;
 
 class DbXml {
  public:
-  DbXml(std::string_view text, std::string_view name) : text_(text), name_(name) {
+  DbXml(std::string_view text, std::string_view name) : name_(name) {
+    for (std::size_t at = text.find('\n'); at != std::string_view::npos; at = text.find('\n', at + 1)) {
+      ends_of_lines_.push_back(static_cast<std::ptrdiff_t>(at));
+    }
     const pugi::xml_parse_result result = document_.load_buffer(text.data(), text.size());
     if (!result) {
       fail_at(name, line_at(result.offset),
@@ -54,8 +56,8 @@ class DbXml {
 
  private:
   [[nodiscard]] std::size_t line_at(std::ptrdiff_t offset) const {
-    const auto end = std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
-    return static_cast<std::size_t>(std::count(text_.begin(), text_.begin() + end, '\n')) + 1;
+    const auto end = std::ranges::lower_bound(ends_of_lines_, offset);
+    return static_cast<std::size_t>(end - ends_of_lines_.begin()) + 1;
   }
   [[nodiscard]] std::size_t line_of(const pugi::xml_node& node) const { return line_at(node.offset_debug()); }
 
@@ -127,7 +129,7 @@ class DbXml {
     }
   }
 
-  std::string_view text_;
+  std::vector<std::ptrdiff_t> ends_of_lines_;
   std::string_view name_;
   pugi::xml_document document_;
   pugi::xml_node root_;
