@@ -37,15 +37,25 @@ Bytes laser_bytes(Bytes set, std::size_t laser) noexcept {
   return set.subspan(kLaserAt + laser * kLaserStep, kLaserBytes);
 }
 
+constexpr std::uint16_t crc16(std::uint16_t crc, std::uint8_t byte) noexcept {
+  crc = static_cast<std::uint16_t>(crc ^ (byte << 8));
+  for (int bit = 0; bit < 8; ++bit) {
+    crc = static_cast<std::uint16_t>((crc & 0x8000) != 0 ? (crc << 1) ^ 0x8005 : crc << 1);
+  }
+  return crc;
+}
+
+/// The check value that catalogues of CRCs give for this one (CRC-16/UMTS).
+static_assert([] {
+  std::uint16_t crc = 0;
+  for (std::uint8_t digit = '1'; digit <= '9'; ++digit) crc = crc16(crc, digit);
+  return crc;
+}() == 0xFEE8);
+
 std::uint16_t crc16_of_lasers(Bytes set) noexcept {
   std::uint16_t crc = 0;
   for (std::size_t laser = 0; laser < kHdl64Lasers; ++laser) {
-    for (const std::uint8_t byte : laser_bytes(set, laser).subspan(1)) {
-      crc = static_cast<std::uint16_t>(crc ^ (byte << 8));
-      for (int bit = 0; bit < 8; ++bit) {
-        crc = static_cast<std::uint16_t>((crc & 0x8000) != 0 ? (crc << 1) ^ 0x8005 : crc << 1);
-      }
-    }
+    for (const std::uint8_t byte : laser_bytes(set, laser).subspan(1)) crc = crc16(crc, byte);
   }
   return crc;
 }

@@ -1,7 +1,8 @@
 // The HDL-64E of the simulator against the manuals, and what its packets say of themselves against the file.
 // Independent checks of the same geometry: the vendor's viewer on recorded packets of an S1
 // (test/real/hdl64_real_test.cpp) and numbers worked by hand (test/drivers/hdl64_decoder_test.cpp); of the
-// checksum: the published check value of its CRC. No recording of an S2 or S3 was to be had.
+// checksum: the published check value of its CRC (drivers/velodyne/hdl64_status.cpp). No recording of an S2
+// or S3 was to be had.
 #include <array>
 #include <cmath>
 #include <cstring>
