@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <numeric>
 #include <optional>
-#include <stdexcept>
 #include <string>
+
+#include "drivers/calibration_text.hpp"
 
 namespace landfix::drivers::hesai {
 namespace {
@@ -21,55 +20,16 @@ struct Channel {
   double azimuth_offset_deg = 0.0;
 };
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r";
-  const auto first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
-/// Cuts what is before the first `separator` off `text`.
-std::string_view take_until(std::string_view& text, char separator) {
-  const auto end = std::min(text.find(separator), text.size());
-  const std::string_view taken = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  return taken;
-}
-
-std::optional<double> number(std::string_view text) {
-  text = trimmed(text);
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 /// Nothing where the line is not three numbers: a header, a hash, blank.
 std::optional<Channel> parse_line(std::string_view line) {
   std::array<double, 3> values{};
   for (double& value : values) {
-    const auto parsed = number(take_until(line, ','));
+    const auto parsed = to_number(take_until(line, ','));
     if (!parsed) return std::nullopt;
     value = *parsed;
   }
   if (!trimmed(line).empty()) return std::nullopt;
   return Channel{values[0], values[1], values[2]};
-}
-
-[[noreturn]] void fail(std::string_view name, std::size_t line, const std::string& what) {
-  throw std::runtime_error(std::string(name) + ":" + std::to_string(line) + ": " + what);
-}
-
-void rank_rings(std::vector<Beam>& beams) {
-  std::vector<std::size_t> order(beams.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return beams[a].elevation_deg < beams[b].elevation_deg;
-  });
-  for (std::size_t rank = 0; rank < order.size(); ++rank) {
-    beams[order[rank]].ring = static_cast<std::uint16_t>(rank);
-  }
 }
 
 /// Puts a channel into its place, if it is one and has not been seen.
@@ -99,8 +59,7 @@ void place(const Channel& channel, std::string_view name, std::size_t line, std:
 
 std::vector<Beam> parse_calibration(std::span<const std::byte> file, std::string_view name,
                                     std::span<const Beam> table) {
-  std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  std::string_view text = to_text(file);
   std::vector<Beam> beams(table.begin(), table.end());
   std::vector<bool> seen(beams.size(), false);
   std::size_t line = 0;

@@ -132,22 +132,22 @@ struct RecordedPacket {
 }
 
 /// A cloud as the vendor's viewer writes it: right, forward, up, intensity.
-[[nodiscard]] inline std::vector<Return> read_viewer_csv(const std::filesystem::path& path) {
+[[nodiscard]] inline std::vector<drivers::Point> read_viewer_csv(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::string line;
   std::getline(file, line);  // header
-  std::vector<Return> returns;
+  std::vector<drivers::Point> points;
   while (std::getline(file, line)) {
     std::istringstream row(line);
-    double right_m = 0.0;
-    double forward_m = 0.0;
-    double up_m = 0.0;
-    double intensity = 0.0;
+    float right_m = 0.0F;
+    float forward_m = 0.0F;
+    float up_m = 0.0F;
+    float intensity = 0.0F;
     char comma = 0;
     row >> right_m >> comma >> forward_m >> comma >> up_m >> comma >> intensity;
-    returns.push_back(to_return(forward_m, -right_m, up_m, intensity));
+    points.push_back({.x = forward_m, .y = -right_m, .z = up_m, .intensity = intensity});
   }
-  return returns;
+  return points;
 }
 
 /// On stdout, for the log.

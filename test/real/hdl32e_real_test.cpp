@@ -13,7 +13,7 @@ TEST(Hdl32eRealData, AgreesWithTheVendorsViewer) {
   const auto packets = test::read_packets(capture, 2368);
   EXPECT_EQ(packets.size(), 603U);
   const auto sweeps = test::decode_sweeps("hdl32e", packets, {});
-  const auto theirs = test::read_viewer_csv(reference);
+  const auto theirs = test::to_returns(test::read_viewer_csv(reference));
   ASSERT_GT(sweeps.size(), 1U);
   const auto ours = test::to_returns(sweeps[1]);
   ASSERT_EQ(ours.size(), theirs.size());

@@ -2,12 +2,10 @@
 // the walls that it saw.
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <iostream>
 #include <map>
 #include <numbers>
-#include <sstream>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -52,28 +50,6 @@ Hdl64Calibration calibration_of(const std::filesystem::path& path) {
   return velodyne::parse_hdl64_calibration(platform::read_file(path), path.string());
 }
 
-/// The viewer's cloud: x right, y forward.
-std::vector<Point> read_reference(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::string line;
-  std::getline(file, line);  // header
-  std::vector<Point> points;
-  while (std::getline(file, line)) {
-    std::istringstream row(line);
-    double right_m = 0.0;
-    double forward_m = 0.0;
-    double up_m = 0.0;
-    double intensity = 0.0;
-    char comma = 0;
-    row >> right_m >> comma >> forward_m >> comma >> up_m >> comma >> intensity;
-    points.push_back({.x = static_cast<float>(forward_m),
-                      .y = static_cast<float>(-right_m),
-                      .z = static_cast<float>(up_m),
-                      .intensity = static_cast<float>(intensity)});
-  }
-  return points;
-}
-
 struct Apart {
   double median_m = 0.0;
   double most_m = 0.0;
@@ -95,7 +71,7 @@ TEST(Hdl64RealData, ReproducesTheVendorsViewer) {
   LANDFIX_REAL_DATA(reference, "hdl64e/s1-at-wall-sweep.csv");
   const auto packets = test::read_packets(capture, 2368);
   const auto calibration = calibration_of(file);
-  const auto theirs = read_reference(reference);
+  const auto theirs = test::read_viewer_csv(reference);
   ASSERT_EQ(theirs.size(), 89'105U);
 
   struct Case {

@@ -30,26 +30,18 @@ std::vector<Return> read_dual_reference(const std::filesystem::path& path) {
   return returns;
 }
 
-void record(const Differences& most) {
-  testing::Test::RecordProperty("range_m", std::to_string(most.range_m));
-  testing::Test::RecordProperty("height_m", std::to_string(most.height_m));
-  testing::Test::RecordProperty("azimuth_deg", std::to_string(most.azimuth_deg));
-  std::cout << "most: range " << most.range_m << " m, height " << most.height_m << " m, azimuth "
-            << most.azimuth_deg << " deg, rms " << most.azimuth_rms_deg << " deg\n";
-}
-
 TEST(Vlp16RealData, AgreesWithTheVendorsViewerOnAMovingCar) {
   LANDFIX_REAL_DATA(capture, "vlp16/moving.pcap");
   LANDFIX_REAL_DATA(reference, "vlp16/moving-sweep.csv");
   const auto packets = test::read_packets(capture, 2368);
   EXPECT_EQ(packets.size(), 291U);
   const auto sweeps = test::decode_sweeps("vlp16", packets, kAsTheReferences);
-  const auto theirs = test::read_viewer_csv(reference);
+  const auto theirs = test::to_returns(test::read_viewer_csv(reference));
   ASSERT_GT(sweeps.size(), 1U);
   const auto ours = test::to_returns(sweeps[1]);
   ASSERT_EQ(ours.size(), theirs.size());
   const Differences most = test::compare(ours, theirs);
-  record(most);
+  test::print("vlp16", most);
   EXPECT_EQ(most.intensity, 0.0);
   EXPECT_LT(most.range_m, 1e-3);
   EXPECT_LT(most.height_m, 1e-3);
@@ -120,7 +112,7 @@ TEST(Vlp16RealData, AgreesWithTheReferenceOnDualReturns) {
   const auto theirs = read_dual_reference(reference);
   ASSERT_EQ(ours.size(), theirs.size());
   const Differences most = test::compare(ours, theirs);
-  record(most);
+  test::print("vlp16", most);
   EXPECT_EQ(most.intensity, 0.0);
   EXPECT_LT(most.range_m, 1e-3);
   EXPECT_LT(most.height_m, 1e-3);
