@@ -39,7 +39,6 @@ constexpr Sensor kVlp32c{.traits = traits("vlp32c", 55'296, 200.0, 0.01),
                          .range_unit_m = 0.004,
                          .product = 0x28};
 /// Its lasers fire singly; +-2 cm, read as 3 sigma.
-/// returns.
 constexpr Sensor kHdl32e{.traits = traits("hdl32e", 46'080, 100.0, 0.007),
                          .lasers = velodyne::kHdl32e,
                          .lasers_at_once = 1,

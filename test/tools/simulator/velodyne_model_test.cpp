@@ -1,6 +1,9 @@
-// The simulator's VLP-32C, HDL-32E and VLS-128 against the manuals. Their tables are checked by data of
-// others too: clouds that the vendor's viewer and a driver decoded from recordings (test/real), and the
-// numbers below.
+// The simulator's VLP-32C, HDL-32E and VLS-128 against the manuals. What else checks their tables:
+//   HDL-32E: the vendor's viewer on a recording (test/real/hdl32e_real_test.cpp), and its two ladders below
+//   VLS-128: a driver of others, and walls, on a recording (test/real/vls128_real_test.cpp), and the rule of
+//            its rings below; the Alpha Prime has the same table
+//   VLP-32C: no recording; two worked numbers, and the spacing of its middle rings below. Offsets of lasers
+//            other than those two, and elevations outside the middle, rest on the manual alone.
 #include <cmath>
 #include <map>
 #include <set>
@@ -85,6 +88,73 @@ TEST(Vls128Model, FiresEightAtOnceAndPausesAfterSixtyFour) {
   EXPECT_EQ(shots[127].after_ns, 44'222);
   EXPECT_EQ(shots[128].after_ns, 55'278);  // 20 slots
   EXPECT_EQ(make_lidar_model("vls128")->traits().packet_ns, 165'834);
+}
+
+TEST(Vls128Model, ReturnsLieWhereTheManualsArithmeticPutsThem) {
+  // The manual's slot is 2.665 us, the simulated unit's 2.7639: where the rotor stands when the laser fires
+  // is what they have in common.
+  struct Example {
+    std::size_t laser;
+    double block_azimuth_deg;
+    double after_us;
+    double range_m;
+    Eigen::Vector3d point_m;
+  };
+  const Example examples[] = {{127, 0.50, 42.640, 80.0, {79.6021, 7.9460, 0.6004}},
+                              {64, 123.45, 23.985, 4.0, {-2.5530, -3.0543, -0.3917}}};
+  for (const Example& example : examples) {
+    const double turned_us = example.block_azimuth_deg / 3600e-6 + example.after_us;
+    const std::int64_t fired_utc_ns = kFullHour_utc_ns + std::lround(1e3 * turned_us);
+    const std::int64_t after_ns = shots_at("vls128", kFullHour_utc_ns)[example.laser].after_ns;
+    const Shot shot = shots_at("vls128", fired_utc_ns - after_ns)[example.laser];
+    const Eigen::Vector3d point_m = shot.origin_m + example.range_m * shot.direction();
+    EXPECT_LT((point_m - example.point_m).cwiseAbs().maxCoeff(), 2e-4) << example.laser;
+  }
+}
+
+/// By elevation, from the lowest, of the lasers of the first sequence.
+std::vector<std::size_t> rings_of(const std::vector<Shot>& shots, std::size_t lasers) {
+  std::vector<std::size_t> rings(lasers);
+  for (std::size_t laser = 0; laser < lasers; ++laser) {
+    for (std::size_t other = 0; other < lasers; ++other) {
+      if (shots[other].elevation_deg < shots[laser].elevation_deg) ++rings[laser];
+    }
+  }
+  return rings;
+}
+
+TEST(Vls128Model, ScattersItsRingsByOneRule) {
+  // No manual says so, but the rings of every eight lasers are those of the first eight, moved on by the bits
+  // of the group: an elevation typed wrong by more than its neighbours' distance, or in the wrong row, stands
+  // out.
+  const auto rings = rings_of(shots_at("vls128", kFullHour_utc_ns), 128);
+  for (std::size_t laser = 0; laser < 128; ++laser) {
+    const std::size_t group = laser / 8;
+    EXPECT_EQ(rings[laser],
+              (rings[laser % 8] + 8 * (group % 2) + 32 * (group / 2 % 4) + 16 * (group / 8)) % 128)
+        << laser;
+  }
+}
+
+TEST(Velodyne32Model, TheHdl32eClimbsInTwoLaddersOfFourThirdsOfADegree) {
+  const auto shots = shots_at("hdl32e", kFullHour_utc_ns);
+  for (std::size_t laser = 0; laser < 32; ++laser) {
+    const double foot_deg = laser % 2 == 0 ? -92.0 / 3.0 : -28.0 / 3.0;
+    EXPECT_NEAR(shots[laser].elevation_deg, foot_deg + 4.0 / 3.0 * static_cast<double>(laser / 2), 0.005)
+        << laser;
+  }
+}
+
+TEST(Velodyne32Model, TheVlp32cIsFinestInTheMiddle) {
+  // The data sheet: a third of a degree apart from ring 8, at -4 deg, to ring 25, at 1.667.
+  const auto shots = shots_at("vlp32c", kFullHour_utc_ns);
+  const auto rings = rings_of(shots, 32);
+  for (std::size_t laser = 0; laser < 32; ++laser) {
+    if (rings[laser] < 8 || rings[laser] > 25) continue;
+    EXPECT_NEAR(shots[laser].elevation_deg, -4.0 + static_cast<double>(rings[laser] - 8) / 3.0, 0.001)
+        << laser;
+  }
+  EXPECT_EQ(std::set<std::size_t>(rings.begin(), rings.end()).size(), 32U);
 }
 
 TEST(VelodyneModels, PutEveryFieldWhereTheManualsSay) {
