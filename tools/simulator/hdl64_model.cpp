@@ -126,7 +126,8 @@ class Hdl64Model final : public LidarModel {
     for (std::size_t block = 0; block < velodyne::kBlocks; ++block) {
       std::uint16_t azimuth_centideg = rotor_angle_centideg(utc_ns + block_ns(block));
       // The S1's encoder has 4000 steps a turn.
-      if (variant_ == Hdl64Variant::s1) azimuth_centideg = static_cast<std::uint16_t>(azimuth_centideg / 9 * 9);
+      if (variant_ == Hdl64Variant::s1)
+        azimuth_centideg = static_cast<std::uint16_t>(azimuth_centideg / 9 * 9);
       data.put_block(block, is_upper(block) ? velodyne::kUpperBank : velodyne::kLowerBank, azimuth_centideg);
       for (std::size_t slot = 0; slot < kLasersPerBlock; ++slot) {
         Echo echo = echoes[block * kLasersPerBlock + slot];
