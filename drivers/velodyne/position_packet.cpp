@@ -21,7 +21,7 @@ constexpr std::int64_t kHourNs = 3'600'000'000'000;
 /// Digits, and where there are any, decimals: "4807.038". Nothing for anything else.
 [[nodiscard]] std::optional<double> to_decimal(std::string_view text) noexcept {
   constexpr std::size_t kLongest = 15;  // a double holds them all
-  if (text.empty() || text.size() > kLongest) return std::nullopt;
+  if (text.empty() || text == "." || text.size() > kLongest) return std::nullopt;
   double value = 0.0;
   double place = 0.0;
   for (const char c : text) {
@@ -50,6 +50,12 @@ constexpr std::int64_t kHourNs = 3'600'000'000'000;
   if (c >= 'A' && c <= 'F') return c - 'A' + 10;
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;
   return -1;
+}
+
+/// A byte that is not documented vouches for nothing.
+[[nodiscard]] PulseState pulse_of(std::byte state) noexcept {
+  return state <= static_cast<std::byte>(PulseState::error) ? static_cast<PulseState>(state)
+                                                            : PulseState::error;
 }
 
 /// What is between $ and *, if the checksum behind it fits: the exclusive or of all its characters.
@@ -111,6 +117,7 @@ struct Fields {
   const auto value = to_decimal(text);
   if (!value || hemisphere.size() != 1) return std::nullopt;
   if (hemisphere[0] != positive && hemisphere[0] != negative) return std::nullopt;
+  if (*value > 100.0 * most_deg) return std::nullopt;  // an int might not hold it
   const auto degrees = static_cast<double>(static_cast<int>(*value / 100.0));
   const double minutes = *value - 100.0 * degrees;
   const double angle_deg = degrees + minutes / 60.0;
@@ -143,7 +150,7 @@ struct Fields {
 std::optional<PositionPacket> parse_position_packet(std::span<const std::byte> payload) noexcept {
   if (payload.size() != kPositionBytes) return std::nullopt;
   PositionPacket packet{.top_of_hour_us = load_little_endian<std::uint32_t>(&payload[kTimeAt]),
-                        .pulse = static_cast<PulseState>(payload[kPulseAt]),
+                        .pulse = pulse_of(payload[kPulseAt]),
                         .utc_ns = {},
                         .fix = {}};
   if (packet.top_of_hour_us > kLatestTopOfHourUs) return std::nullopt;

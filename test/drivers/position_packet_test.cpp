@@ -61,6 +61,50 @@ TEST(PositionPacket, CountsOnOverTheHourThatTheReceiverHasNotSeenYet) {
   EXPECT_EQ(at("235959.50", 200'000) - at("215959", 200'000), 2 * 3'600'000'000'000);
 }
 
+TEST(PositionPacket, TakesACountSomewhatOverTheHourAsItIs) {
+  constexpr std::int64_t kTenPmUtcNs = kSentenceUtcNs + 1'134'000'000'000;
+  for (const char* const time : {"215959", "220000"}) {
+    std::string body = kSentence;
+    body.replace(6, 6, time);
+    const auto packet = parse_position_packet(packet_with(with_checksum(body), 3'600'060'000));
+    ASSERT_TRUE(packet && packet->utc_ns) << time;
+    EXPECT_EQ(*packet->utc_ns, kTenPmUtcNs + 60'000'000) << time;
+  }
+}
+
+TEST(PositionPacket, CountsOnIntoTheYearThatTheReceiverHasNotSeenYet) {
+  std::string body = kSentence;
+  body.replace(6, 6, "235959");
+  body.replace(body.find("230715"), 6, "311215");
+  const auto packet = parse_position_packet(packet_with(with_checksum(body), 200'000));
+  ASSERT_TRUE(packet && packet->utc_ns);
+  EXPECT_EQ(*packet->utc_ns, 1'451'606'400'200'000'000) << "2016-01-01 00:00:00.2";
+}
+
+TEST(PositionPacket, TrustsNoStateOfThePulseThatIsNotDocumented) {
+  for (const auto state : std::to_array<std::uint8_t>({4, 77, 255})) {
+    const auto packet = parse_position_packet(packet_with(with_checksum(kSentence), 1000, state));
+    ASSERT_TRUE(packet);
+    EXPECT_EQ(packet->pulse, PulseState::error);
+    EXPECT_FALSE(packet->utc_ns);
+  }
+}
+
+TEST(PositionPacket, FindsNoPlaceOffTheEarthOrInWhatIsNoNumber) {
+  const auto fix_at = [](const std::string& latitude, const std::string& longitude) {
+    return parse_position_packet(
+               packet_with(with_checksum("GPRMC,214106,A," + latitude + ",N," + longitude + ",W,1,1,230715")))
+        ->fix;
+  };
+  ASSERT_TRUE(fix_at("9000.0", "18000.0"));
+  EXPECT_FALSE(fix_at("9000.0001", "12139.2690"));
+  EXPECT_FALSE(fix_at("3707.8178", "18000.0001"));
+  for (const char* const wrong : {"999999999999999", "3760.0", ".", "37.07.8", "-3707.8", "1e3", "inf"}) {
+    EXPECT_FALSE(fix_at(wrong, "12139.2690")) << wrong;
+    EXPECT_FALSE(fix_at("3707.8178", wrong)) << wrong;
+  }
+}
+
 TEST(PositionPacket, BelievesNoTimeWithoutALockedPulseAndAValidFix) {
   EXPECT_FALSE(parse_position_packet(packet_with(with_checksum(kSentence), 1000, 1))->utc_ns);
   EXPECT_TRUE(parse_position_packet(packet_with(with_checksum(kSentence), 1000, 1))->fix);

@@ -1,4 +1,8 @@
 // Position packets as two cars recorded them.
+#include <algorithm>
+#include <iostream>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "drivers/velodyne/position_packet.hpp"
@@ -13,6 +17,8 @@ TEST(PositionPacketRealData, SaysWhereTheMovingCarIsAndWhatTimeItIs) {
   const auto packets = test::read_packets(capture, 8308);
   ASSERT_EQ(packets.size(), 56U);
   std::int64_t last_ns = 0;
+  std::int64_t earliest_ns = std::numeric_limits<std::int64_t>::max();  // of receipt - sensor
+  std::int64_t latest_ns = std::numeric_limits<std::int64_t>::min();
   for (const auto& recorded : packets) {
     const auto packet = velodyne::parse_position_packet(recorded.payload);
     ASSERT_TRUE(packet && packet->utc_ns && packet->fix);
@@ -22,9 +28,13 @@ TEST(PositionPacketRealData, SaysWhereTheMovingCarIsAndWhatTimeItIs) {
     EXPECT_NEAR(packet->fix->speed_mps, 5.3, 0.2);
     EXPECT_GT(*packet->utc_ns, last_ns);
     last_ns = *packet->utc_ns;
+    earliest_ns = std::min(earliest_ns, recorded.receive_utc_ns - *packet->utc_ns);
+    latest_ns = std::max(latest_ns, recorded.receive_utc_ns - *packet->utc_ns);
     // The computer's clock was right to a second or so.
     EXPECT_LT(std::abs(*packet->utc_ns - recorded.receive_utc_ns), 2'000'000'000);
   }
+  std::cout << "delays differ by " << (latest_ns - earliest_ns) / 1000 << " us\n";
+  EXPECT_LT(latest_ns - earliest_ns, 1'000'000) << "the clock advances as the capture's does";
 }
 
 TEST(PositionPacketRealData, MayHaveNoReceiver) {
