@@ -18,6 +18,12 @@ constexpr std::size_t kSentenceBytes = 128;
 constexpr double kKnotMps = 1852.0 / 3600.0;
 constexpr std::int64_t kHourNs = 3'600'000'000'000;
 
+/// A substring that may reach beyond the end: substr() of the standard throws, if not optimised away.
+[[nodiscard]] std::string_view part(std::string_view text, std::size_t at, std::size_t count) noexcept {
+  const std::size_t first = std::min(at, text.size());
+  return {text.data() + first, std::min(count, text.size() - first)};
+}
+
 /// Digits, and where there are any, decimals: "4807.038". Nothing for anything else.
 [[nodiscard]] std::optional<double> to_decimal(std::string_view text) noexcept {
   constexpr std::size_t kLongest = 15;  // a double holds them all
@@ -40,7 +46,7 @@ constexpr std::int64_t kHourNs = 3'600'000'000'000;
 /// Exactly two digits.
 [[nodiscard]] std::optional<int> two_digits(std::string_view text, std::size_t at) noexcept {
   if (text.size() < at + 2) return std::nullopt;
-  const auto value = to_decimal(text.substr(at, 2));
+  const auto value = to_decimal(part(text, at, 2));
   if (!value || text[at] == '.' || text[at + 1] == '.') return std::nullopt;
   return static_cast<int>(*value);
 }
@@ -64,7 +70,7 @@ constexpr std::int64_t kHourNs = 3'600'000'000'000;
   if (!sentence.starts_with('$') || star == std::string_view::npos || sentence.size() < star + 3) {
     return std::nullopt;
   }
-  const std::string_view body = sentence.substr(1, star - 1);
+  const std::string_view body = part(sentence, 1, star - 1);
   int sum = 0;
   for (const char c : body) sum ^= static_cast<unsigned char>(c);
   const int high = hex_digit(sentence[star + 1]);
@@ -79,14 +85,14 @@ struct Fields {
 };
 
 [[nodiscard]] std::optional<Fields> fields_of(std::string_view body) noexcept {
-  if (body.size() < 6 || body.substr(2, 4) != "RMC,") return std::nullopt;
+  if (body.size() < 6 || part(body, 2, 4) != "RMC,") return std::nullopt;
   body.remove_prefix(6);
   Fields fields;
   for (std::string_view* const field :
        {&fields.time, &fields.status, &fields.latitude, &fields.north_south, &fields.longitude,
         &fields.east_west, &fields.speed, &fields.course, &fields.date}) {
     const auto end = std::min(body.find(','), body.size());
-    *field = body.substr(0, end);
+    *field = part(body, 0, end);
     body.remove_prefix(std::min(end + 1, body.size()));
   }
   return fields;
