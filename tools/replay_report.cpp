@@ -63,6 +63,7 @@ nlohmann::ordered_json to_json(const ReplayReport& report) {
   object["time_source"] = time_source(result);
   object["packets"] = {{"total", counters.packets},
                        {"rejected", counters.rejected()},
+                       {"lost", report.pipeline.stream_counters().lost_packets},
                        {"dropped", 0},  // a replay reads as fast as it solves
                        {"other_senders", counters.other_senders},
                        {"other_ports", counters.other_ports}};
@@ -96,7 +97,7 @@ std::string to_text(const ReplayReport& report) {
       time_source(result), counters.packets, counters.rejected(), counters.other_senders,
       counters.other_ports, result.iterations_mean());
   for (std::size_t i = 1; i < drivers::kDecodeStatusCount; ++i) {
-    if (counters.by_status[i] == 0) continue;
+    if (counters.by_status[i] == 0 || !drivers::is_rejected(static_cast<drivers::DecodeStatus>(i))) continue;
     text += fmt::format("  rejected   {}: {}\n", counters.by_status[i],
                         to_string(static_cast<drivers::DecodeStatus>(i)));
   }
