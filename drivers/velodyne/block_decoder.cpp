@@ -106,9 +106,13 @@ DecodeResult BlockDecoder::decode(const Packet& packet, SweepPair& sweeps) noexc
       builder_.clock().expand_top_of_hour(header.top_of_hour_us, packet.receive_utc_ns);
   const DecodeStatus place = begin_packet(header, first_firing_ns, packet.receive_utc_ns, sweeps);
   if (place != DecodeStatus::decoded) return {.status = place};
+  std::int64_t block_ns = first_firing_ns;
   for (std::size_t firing = 0; firing < header.firings; ++firing) {
     const std::uint16_t azimuth_centideg = header.firing_azimuth_centideg[firing];
-    const auto block_ns = first_firing_ns + static_cast<std::int64_t>(firing) * layout_.block_ns();
+    if (firing > 0) {
+      block_ns += spin_rate_.time_between(header.firing_azimuth_centideg[firing - 1], azimuth_centideg,
+                                          layout_.block_ns());
+    }
     Block block{.azimuth_centideg = azimuth_centideg,
                 .time_s = builder_.begin_block(azimuth_centideg, block_ns, sweeps),
                 .unit_m = static_cast<float>(layout_.range_unit_m)};

@@ -16,6 +16,10 @@ namespace {
 constexpr double kSlowest_centideg_per_us = 0.12;
 constexpr double kFastest_centideg_per_us = 1.08;
 constexpr double kLowPass = 1.0 / 16.0;
+/// A step of more than this many periods is a sector left out; of more than three quarters of a turn, one
+/// back.
+constexpr double kLeapPeriods = 3.0;
+constexpr int kFarthestLeapCentideg = 3 * kTurnCentideg / 4;
 
 }  // namespace
 
@@ -49,6 +53,15 @@ double SpinRate::rad_per_s() const noexcept {
 
 std::int64_t SpinRate::turn_ns() const noexcept {
   return static_cast<std::int64_t>(kTurnCentideg / centideg_per_us_ * 1e3);
+}
+
+std::int64_t SpinRate::time_between(std::uint16_t from_centideg, std::uint16_t to_centideg,
+                                    std::int64_t period_ns) const noexcept {
+  const int step_centideg = (to_centideg + kTurnCentideg - from_centideg) % kTurnCentideg;
+  const double step_ns = step_centideg / centideg_per_us_ * 1e3;
+  const bool leaps =
+      step_centideg < kFarthestLeapCentideg && step_ns > kLeapPeriods * static_cast<double>(period_ns);
+  return leaps ? static_cast<std::int64_t>(step_ns) : period_ns;
 }
 
 }  // namespace landfix::drivers::velodyne

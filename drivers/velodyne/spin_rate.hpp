@@ -17,6 +17,11 @@ class SpinRate {
   [[nodiscard]] double rad_per_s() const noexcept;
   [[nodiscard]] std::int64_t turn_ns() const noexcept;
 
+  /// Time from one firing to the next: `period_ns`, unless the azimuth leaps. A rotor does not; a restricted
+  /// field of view fills the packet up behind the sector that it leaves out, when the rotor has got there.
+  [[nodiscard]] std::int64_t time_between(std::uint16_t from_centideg, std::uint16_t to_centideg,
+                                          std::int64_t period_ns) const noexcept;
+
  private:
   double centideg_per_us_ = 0.36;  ///< 600 rpm, until there is a packet
 };

@@ -168,9 +168,13 @@ DecodeResult Vls128Decoder::decode(const Packet& packet, SweepPair& sweeps) noex
   measure(header, first_firing_ns);
   fit_projectors();
 
+  std::int64_t sequence_start_ns = first_firing_ns;
   for (std::size_t sequence = 0; sequence < header.sequences; ++sequence) {
     const std::uint16_t azimuth_centideg = header.azimuth_centideg[sequence];
-    const auto sequence_start_ns = first_firing_ns + static_cast<std::int64_t>(sequence) * sequence_ns;
+    if (sequence > 0) {
+      sequence_start_ns +=
+          spin_rate_.time_between(header.azimuth_centideg[sequence - 1], azimuth_centideg, sequence_ns);
+    }
     Block block{.azimuth_centideg = azimuth_centideg,
                 .time_s = builder_.begin_block(azimuth_centideg, sequence_start_ns, sweeps),
                 .unit_m = static_cast<float>(kRangeUnitM)};

@@ -105,6 +105,54 @@ TEST(BlockDecoder, TakesUnnamedPacketsOnlyOfModelsThatHadSuchFirmware) {
   EXPECT_EQ(DecoderBench("vlp32c").decode(VelodynePacket(0x23).bytes()).status, DecodeStatus::wrong_model);
 }
 
+/// Two turns and more at 600 rpm, of which the sensor reports what lies from 270 deg to 90 deg: packets are
+/// filled up behind the dark sector.
+TEST(BlockDecoder, TimesAndTurnsBlocksBehindASectorThatIsLeftOut) {
+  constexpr std::size_t kLaser = 30;  // fires late in its sequence
+  const SensorModel& model = *find_sensor_model("vlp32c");
+  const Beam& beam = model.beams[kLaser];
+  DecoderBench bench("vlp32c");
+  std::vector<double> true_time_us;
+  std::vector<double> true_azimuth_deg;
+  VelodynePacket packet(0x28, kStrongest);
+  double stamp_us = 0.0;
+  int leaps_inside = 0;
+  for (int i = 0; i < 8000; ++i) {
+    const double time_us = 1e6 + 55.296 * i;
+    const double azimuth_centideg = std::fmod(0.36 * time_us, 36000.0);
+    if (azimuth_centideg > 9000.0 && azimuth_centideg < 27000.0) continue;
+    const std::size_t block = true_time_us.size() % 12;
+    if (block == 0) stamp_us = time_us;
+    if (block > 0 && true_time_us.back() < time_us - 1e3) ++leaps_inside;
+    packet.set_azimuth(block, static_cast<unsigned>(azimuth_centideg));
+    packet.set_return(block, kLaser, 5000);
+    true_time_us.push_back(time_us + beam.firing_time_us);
+    true_azimuth_deg.push_back(0.01 * azimuth_centideg + beam.azimuth_offset_deg +
+                               3600e-6 * beam.firing_time_us);
+    if (block != 11) continue;
+    packet.set_time_us(static_cast<std::uint32_t>(std::lround(stamp_us)));
+    const auto receive_ns = kHourUtcNs + static_cast<std::int64_t>(time_us * 1e3) + 1'000'000;
+    ASSERT_EQ(bench.decode(packet.bytes(), receive_ns).status, DecodeStatus::decoded);
+  }
+  ASSERT_TRUE(bench.flush());
+  EXPECT_GT(leaps_inside, 2);
+  std::size_t count = 0;
+  for (const auto& sweep : bench.swept()) {
+    for (const Point& point : sweep.points) {
+      const double time_us = 1e-3 * static_cast<double>(sweep.start_utc_ns - kHourUtcNs) +
+                             1e6 * static_cast<double>(point.time_s);
+      // The rate of rotation is known to a part in 500, and dark for 50 ms.
+      ASSERT_NEAR(time_us, true_time_us.at(count), 100.0) << count;
+      ASSERT_NEAR(std::remainder(azimuth_deg(point) - true_azimuth_deg.at(count), 360.0), 0.0, 0.012)
+          << count;
+      ++count;
+    }
+  }
+  EXPECT_EQ(count, true_time_us.size() / 12 * 12);
+  ASSERT_GT(bench.swept().size(), 3U);
+  EXPECT_TRUE(bench.swept()[2].complete) << "what is left out in every turn is not lost";
+}
+
 TEST(Vls128Decoder, GivesTheNumbersWorkedByHandFromTheManual) {
   struct WorkedNumber {
     unsigned azimuth_centideg;
