@@ -60,13 +60,22 @@ BlocksABank blocks_a_bank(ReturnMode mode) noexcept {
       return {1, 1};
     case ReturnMode::dual:
       return {2, 2};
-    case ReturnMode::triple:                // the third return
-    case ReturnMode::dual_with_confidence:  // or words of confidence: neither is used
+    case ReturnMode::triple:
+      return {3, 3};
+    case ReturnMode::dual_with_confidence:  // whose words are not used
       return {3, 2};
     case ReturnMode::unknown:
       break;
   }
   return {0, 0};
+}
+
+/// Blanks the ranges of `block` that are in `other` too.
+void blank_repeated(WireBlock& block, const WireBlock& other) noexcept {
+  for (std::size_t i = 0; i < kBlockSlots; ++i) {
+    std::byte* const range_raw = block.slots + i * kSlotBytes;
+    if (std::memcmp(range_raw, other.slots + i * kSlotBytes, 2) == 0) std::memset(range_raw, 0, 2);
+  }
 }
 
 bool is_unused(const WireBlock& block) noexcept {
@@ -181,9 +190,12 @@ DecodeResult Vls128Decoder::decode(const Packet& packet, SweepPair& sweeps) noex
     const std::size_t first_block = sequence * kBanks * header.blocks_a_bank;
     for (std::size_t bank = 0; bank < kBanks; ++bank) {
       block.duplicates = nullptr;
+      WireBlock* const of_bank = wire.blocks + first_block + bank * header.blocks_a_bank;
+      // The projector compares a return with the one before it, so a third with the second.
+      if (header.returns == 3) blank_repeated(of_bank[2], of_bank[0]);
       // Dual: the last return, then the strongest, or the second strongest if the strongest is the last.
       for (std::size_t i = 0; i < header.returns; ++i) {
-        block.slots = wire.blocks[first_block + bank * header.blocks_a_bank + i].slots;
+        block.slots = of_bank[i].slots;
         projectors_[bank].project(block, gate_, sweeps.current());
         block.duplicates = block.slots;
       }

@@ -217,7 +217,7 @@ TEST(Vls128Decoder, MeasuresTheSlotThatItsFirmwareUses) {
   }
 }
 
-TEST(Vls128Decoder, KeepsBothReturnsOfABankAndDropsTheSecondOfEquals) {
+TEST(Vls128Decoder, KeepsEveryReturnOfABankOnce) {
   for (const std::uint8_t mode : {kDual, kTriple, kConfidence}) {
     DecoderBench bench("vls128");
     VelodynePacket packet = vls128_packet(mode, 1000);
@@ -228,11 +228,22 @@ TEST(Vls128Decoder, KeepsBothReturnsOfABankAndDropsTheSecondOfEquals) {
       packet.set_return(bank * a_bank, 6, 3000, 10);
       packet.set_return(bank * a_bank + 1, 6, 2000, 20);
       if (a_bank == 3) packet.set_return(bank * a_bank + 2, 6, 1000, 30);  // third returns, or confidence
+      if (a_bank == 3) packet.set_return(bank * a_bank + 2, 5, 3000, 10);
     }
+    // Equal to the first return, not to the second between them.
+    if (a_bank == 3) packet.set_return(2, 7, 4000, 40);
+    if (a_bank == 3) packet.set_return(0, 7, 4000, 40);
     ASSERT_EQ(bench.decode(packet.bytes()).status, DecodeStatus::decoded);
-    ASSERT_EQ(bench.points().size(), 4U * 3U) << static_cast<int>(mode);
-    EXPECT_EQ(bench.points()[0].intensity, 10.0F);
-    EXPECT_EQ(bench.points()[2].intensity, 20.0F);
+    std::vector<float> intensities;
+    for (const Point& point : bench.points()) intensities.push_back(point.intensity);
+    std::vector<float> expected;
+    for (int bank = 0; bank < 4; ++bank) {
+      expected.insert(expected.end(), {10.0F, 10.0F});
+      if (a_bank == 3 && bank == 0) expected.push_back(40.0F);
+      expected.push_back(20.0F);
+      if (mode == kTriple) expected.push_back(30.0F);
+    }
+    EXPECT_EQ(intensities, expected) << static_cast<int>(mode);
   }
 }
 
