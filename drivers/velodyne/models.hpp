@@ -30,8 +30,10 @@ inline bool recognise_blocks(const SensorModel& model, std::span<const std::byte
 }
 
 /// Four banks: three sequences a packet, or one and four blocks that are left over, or three blocks each.
-inline bool recognise_vls128(const SensorModel& model, std::span<const std::byte> payload) noexcept {
-  return names_itself(model, payload) &&
+inline bool recognise_vls128(const SensorModel& /*model*/, std::span<const std::byte> payload) noexcept {
+  if (payload.size() != sizeof(WirePacket)) return false;
+  const bool named = payload.back() == kVls128Product || payload.back() == kVls128ProductOfTheManual;
+  return named && flag_of_block(payload, 0) == kBlockFlag &&
          (flag_of_block(payload, 3) == kBankFlags[3] || flag_of_block(payload, 7) == kBankFlags[3] ||
           flag_of_block(payload, 11) == kBankFlags[3]);
 }
@@ -74,7 +76,7 @@ inline constexpr SensorModel kVls128Model{.name = "vls128",
                                           .data_port = 2368,
                                           .telemetry_port = 8308,
                                           .payload_sizes = kPayloadSizes,
-                                          .product_id = 0xA1,
+                                          .product_id = std::to_integer<std::uint8_t>(kVls128Product),
                                           .firing_period_us = 53.3,
                                           .max_returns = 2,
                                           .recognise = recognise_vls128};

@@ -13,8 +13,6 @@ constexpr double kRangeUnitM = 0.004;
 constexpr int kSlotsASequence = 20;
 /// The packet's time is that of the fourth group of its first sequence.
 constexpr std::int64_t kStampAfterFirstFiringNs = 8'700;
-constexpr std::uint8_t kProduct = 0xA1;
-constexpr std::uint8_t kProductOfTheManual = 0x63;  // as the VLP-16's manual lists it
 /// The projectors are made anew when the slot is measured to be another by more than this.
 constexpr double kSlotStep = 0.001;
 
@@ -97,9 +95,8 @@ Vls128Decoder::Vls128Decoder(std::span<const Beam, kVls128Lasers> beams,
       firing_time_azimuth_(options.firing_time_azimuth) {}
 
 DecodeStatus Vls128Decoder::validate(const WirePacket& wire, Header& header) const noexcept {
-  if (wire.product != std::byte{kProduct} && wire.product != std::byte{kProductOfTheManual}) {
+  if (wire.product != kVls128Product && wire.product != kVls128ProductOfTheManual)
     return DecodeStatus::wrong_model;
-  }
   const auto [blocks, returns] = blocks_a_bank(static_cast<ReturnMode>(wire.return_mode));
   if (blocks == 0) return DecodeStatus::wrong_return_mode;
   header.blocks_a_bank = blocks;

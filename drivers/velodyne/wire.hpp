@@ -22,6 +22,10 @@ inline constexpr std::array<std::uint16_t, 4> kBankFlags{0xEEFF, 0xDDFF, 0xCCFF,
 /// Some firmware counts on for some milliseconds before it returns to zero at the full hour.
 inline constexpr std::uint32_t kLatestTopOfHourUs = 3'601'000'000;
 
+/// The byte that names a VLS-128 or an Alpha Prime, and the one that the VLP-16's manual lists for them.
+inline constexpr std::byte kVls128Product{0xA1};
+inline constexpr std::byte kVls128ProductOfTheManual{0x63};
+
 /// Everything on the wire is bytes: no alignment is assumed, fields are read by load_little_endian.
 struct WireBlock {
   std::byte flag[2];

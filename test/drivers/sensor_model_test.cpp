@@ -60,6 +60,8 @@ TEST(SensorModel, IsRecognisedByItsOwnPacketsOnly) {
   for (std::size_t block = 0; block < 12; ++block) alpha.set_flag(block, kFlags[block % 4]);
   EXPECT_TRUE(looks("vls128", alpha.bytes()));
   EXPECT_TRUE(looks("vls128ap", alpha.bytes()));
+  alpha.set_product(0x63);
+  EXPECT_TRUE(looks("vls128", alpha.bytes())) << "the id that another manual prints";
   // The last byte of an HDL-64E may be any; its blocks alternate between the upper and the lower half.
   test::VelodynePacket hdl64(0x22);
   for (std::size_t block = 0; block < 12; ++block) hdl64.set_flag(block, kFlags[block % 2]);
