@@ -2,8 +2,6 @@
 
 #include <cstring>
 
-#include "drivers/velodyne/position_packet.hpp"
-
 namespace landfix::drivers::velodyne {
 namespace {
 
@@ -94,7 +92,7 @@ DecodeStatus BlockDecoder::begin_packet(const Header& header, std::int64_t first
 }
 
 DecodeResult BlockDecoder::decode(const Packet& packet, SweepPair& sweeps) noexcept {
-  if (packet.payload.size() == kPositionBytes) return {.status = read_position(packet, builder_)};
+  if (packet.payload.size() == kPositionBytes) return {.status = read_position(packet, builder_, position_)};
   if (packet.payload.size() != sizeof(WirePacket)) return {.status = DecodeStatus::wrong_size};
   WirePacket wire;
   std::memcpy(&wire, packet.payload.data(), sizeof(wire));

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "drivers/beam.hpp"
@@ -12,6 +13,7 @@
 #include "drivers/decoder.hpp"
 #include "drivers/decoder_options.hpp"
 #include "drivers/sweep_builder.hpp"
+#include "drivers/velodyne/position_packet.hpp"
 #include "drivers/velodyne/spin_rate.hpp"
 #include "drivers/velodyne/wire.hpp"
 
@@ -49,6 +51,9 @@ class BlockDecoder {
   [[nodiscard]] bool flush(SweepPair& sweeps) noexcept { return builder_.flush(sweeps); }
   [[nodiscard]] const StreamCounters& counters() const noexcept { return builder_.counters(); }
 
+  /// Where the receiver at the sensor says it is, by the latest position packet.
+  [[nodiscard]] const std::optional<PositionFix>& position() const noexcept { return position_; }
+
  private:
   /// What a packet says, once it is known to be sound.
   struct Header {
@@ -65,6 +70,7 @@ class BlockDecoder {
   RangeGate gate_;
   SweepBuilder builder_;
   SpinRate spin_rate_;
+  std::optional<PositionFix> position_;
   BlockLayout layout_;
   bool firing_time_azimuth_;
 };

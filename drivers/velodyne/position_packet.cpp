@@ -33,6 +33,7 @@ constexpr std::int64_t kHourNs = 3'600'000'000'000;
   for (const char c : text) {
     if (c == '.' && place == 0.0) {
       place = 1.0;
+      if (text.size() == 1) return std::nullopt;
     } else if (c >= '0' && c <= '9') {
       value = 10.0 * value + (c - '0');
       place *= 10.0;
@@ -174,9 +175,11 @@ std::optional<PositionPacket> parse_position_packet(std::span<const std::byte> p
   return packet;
 }
 
-DecodeStatus read_position(const Packet& packet, SweepBuilder& builder) noexcept {
+DecodeStatus read_position(const Packet& packet, SweepBuilder& builder,
+                           std::optional<PositionFix>& fix) noexcept {
   const auto position = parse_position_packet(packet.payload);
   if (!position) return DecodeStatus::wrong_time;
+  fix = position->fix;
   if (position->utc_ns) builder.learn_utc(*position->utc_ns, packet.receive_utc_ns);
   return DecodeStatus::telemetry;
 }

@@ -42,7 +42,9 @@ struct PositionPacket {
 [[nodiscard]] std::optional<PositionPacket> parse_position_packet(
     std::span<const std::byte> payload) noexcept;
 
-/// What a decoder does with one: its clock learns UTC, where the packet knows it.
-[[nodiscard]] DecodeStatus read_position(const Packet& packet, SweepBuilder& builder) noexcept;
+/// What a decoder does with one: its clock learns UTC, where the packet knows it, and `fix` becomes the
+/// packet's.
+[[nodiscard]] DecodeStatus read_position(const Packet& packet, SweepBuilder& builder,
+                                         std::optional<PositionFix>& fix) noexcept;
 
 }  // namespace landfix::drivers::velodyne

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "drivers/velodyne/position_packet.hpp"
-
 namespace landfix::drivers::velodyne {
 namespace {
 
@@ -152,7 +150,7 @@ void Vls128Decoder::fit_projectors() noexcept {
 }
 
 DecodeResult Vls128Decoder::decode(const Packet& packet, SweepPair& sweeps) noexcept {
-  if (packet.payload.size() == kPositionBytes) return {.status = read_position(packet, builder_)};
+  if (packet.payload.size() == kPositionBytes) return {.status = read_position(packet, builder_, position_)};
   if (packet.payload.size() != sizeof(WirePacket)) return {.status = DecodeStatus::wrong_size};
   WirePacket wire;
   std::memcpy(&wire, packet.payload.data(), sizeof(wire));

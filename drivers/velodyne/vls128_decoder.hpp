@@ -12,6 +12,7 @@
 #include "drivers/decoder.hpp"
 #include "drivers/decoder_options.hpp"
 #include "drivers/sweep_builder.hpp"
+#include "drivers/velodyne/position_packet.hpp"
 #include "drivers/velodyne/slot_time.hpp"
 #include "drivers/velodyne/spin_rate.hpp"
 #include "drivers/velodyne/wire.hpp"
@@ -29,6 +30,9 @@ class Vls128Decoder {
   [[nodiscard]] DecodeResult decode(const Packet& packet, SweepPair& sweeps) noexcept;
   [[nodiscard]] bool flush(SweepPair& sweeps) noexcept { return builder_.flush(sweeps); }
   [[nodiscard]] const StreamCounters& counters() const noexcept { return builder_.counters(); }
+
+  /// Where the receiver at the sensor says it is, by the latest position packet.
+  [[nodiscard]] const std::optional<PositionFix>& position() const noexcept { return position_; }
 
   /// The firing slot as it has been measured so far.
   [[nodiscard]] double slot_us() const noexcept { return slot_.us(); }
@@ -53,6 +57,7 @@ class Vls128Decoder {
   RangeGate gate_;
   SweepBuilder builder_;
   SpinRate spin_rate_;
+  std::optional<PositionFix> position_;
   std::int64_t last_firing_ns_ = 0;
   std::optional<std::uint16_t> last_azimuth_centideg_;
   bool firing_time_azimuth_;

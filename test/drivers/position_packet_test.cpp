@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "drivers/decoder_bench.hpp"
+#include "drivers/velodyne/block_decoder.hpp"
 #include "support/synthetic_packets.hpp"
 
 namespace landfix::drivers::velodyne {
@@ -125,7 +126,8 @@ TEST(PositionPacket, TakesWhatAReceiverMayLeaveEmpty) {
   EXPECT_EQ(standing->fix->speed_mps, 0.0);
   for (const char* body :
        {"GPRMC,,A,,,,,,,,,", "GPRMC,,V,,,,,,,,,", "GPGGA,214106,3707.8178,N,12139.2690,W,1,8,0.9,5.0,M",
-        "GPRMC", "", "GPRMC,214106,A,3767.8178,N,12139.2690,W,1,1,320715", "GPRMC,2x4106,A"}) {
+        "GPRMC", "", "GPRMC,214106,A,3767.8178,N,12139.2690,W,1,1,320715", "GPRMC,2x4106,A",
+        "GPRMC,2141,A,.,N,.,W,010.3,188.2,230715"}) {
     const auto packet = parse_position_packet(packet_with(with_checksum(body)));
     ASSERT_TRUE(packet) << body;
     EXPECT_FALSE(packet->utc_ns) << body;
@@ -159,6 +161,22 @@ TEST(PositionPacket, IsNotWhatHasAnotherSizeOrTime) {
       EXPECT_FALSE(packet->fix);
     }
   }
+}
+
+TEST(PositionPacket, LeavesItsFixWithTheDecoderUntilTheNextOne) {
+  const SensorModel& model = *find_sensor_model("vlp16");
+  BlockDecoder decoder(kVlp16, model.beams, {});
+  std::array<Point, 2> storage;
+  SweepPair sweeps(storage);
+  EXPECT_FALSE(decoder.position());
+  const auto decode = [&](std::span<const std::byte> payload) {
+    EXPECT_EQ(decoder.decode({payload, kSentenceUtcNs}, sweeps).status, DecodeStatus::telemetry);
+  };
+  decode(packet_with(with_checksum(kSentence)));
+  ASSERT_TRUE(decoder.position());
+  EXPECT_NEAR(decoder.position()->course_deg, 188.2, 1e-9);
+  decode(packet_with(""));
+  EXPECT_FALSE(decoder.position()) << "the receiver is silent: where it was is not where it is";
 }
 
 TEST(PositionPacket, TellsTheDecoderUtcWhereTheReceiversClockIsHoursOff) {
