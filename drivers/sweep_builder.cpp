@@ -9,6 +9,10 @@ namespace {
 
 /// The last packet before a dark sector begins up to its own span, at most 10 deg, before the sector.
 constexpr int kSamePlaceCentideg = 1000;
+/// A restricted field of view sends nothing over the same sector in every turn, at least a 36th of it; a loss
+/// is seldom as long, and hardly ever again in the same place a turn later.
+constexpr std::int64_t kDarkShareOfTurn = 36;
+constexpr std::int64_t kMostLost = 1'000'000'000;
 /// Networks reorder packets by less than this.
 constexpr std::int64_t kOvertakenByNs = 10'000'000;
 
@@ -75,11 +79,22 @@ std::uint32_t SweepBuilder::lost_before(const PacketTiming& packet) noexcept {
   if (packet.sequence && newest_sequence_) return *packet.sequence - *newest_sequence_ - 1;
   const std::int64_t late_ns = packet.first_firing_ns - newest_packet_ns_ - packet.duration_ns;
   if (late_ns <= packet.duration_ns / 2) return 0;
-  // A restricted field of view sends nothing over the same sector in every turn; a loss may be anywhere.
-  const bool known = dark_from_centideg_ && same_place(*dark_from_centideg_, newest_azimuth_centideg_);
-  dark_from_centideg_ = newest_azimuth_centideg_;
-  if (known) return 0;
-  return static_cast<std::uint32_t>((late_ns + packet.duration_ns / 2) / packet.duration_ns);
+  if (is_dark_sector(late_ns, packet.turn_ns)) return 0;
+  const std::int64_t count = (late_ns + packet.duration_ns / 2) / packet.duration_ns;
+  return static_cast<std::uint32_t>(std::min<std::int64_t>(count, kMostLost));
+}
+
+bool SweepBuilder::is_dark_sector(std::int64_t late_ns, std::int64_t turn_ns) noexcept {
+  if (late_ns < turn_ns / kDarkShareOfTurn) return false;
+  const Gap gap{
+      .start_ns = newest_packet_ns_, .length_ns = late_ns, .azimuth_centideg = newest_azimuth_centideg_};
+  const bool known = std::ranges::any_of(gaps_, [&](const Gap& before) {
+    const std::int64_t apart_ns = std::abs(gap.start_ns - before.start_ns - turn_ns);
+    return apart_ns < turn_ns / 4 && same_place(before.azimuth_centideg, gap.azimuth_centideg) &&
+           std::abs(gap.length_ns - before.length_ns) < gap.length_ns / 4;
+  });
+  gaps_[next_gap_++ % gaps_.size()] = gap;
+  return known;
 }
 
 float SweepBuilder::begin_block(std::uint16_t azimuth_centideg, std::int64_t first_firing_ns,

@@ -1,6 +1,8 @@
 // Puts the blocks of packets into sweeps: when each begins, whether it is whole, and on whose clock.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -59,6 +61,7 @@ class SweepBuilder {
   [[nodiscard]] bool is_overtaken(const PacketTiming& packet) const noexcept;
   [[nodiscard]] DecodeStatus join_late(const PacketTiming& packet, SweepPair& sweeps) noexcept;
   [[nodiscard]] std::uint32_t lost_before(const PacketTiming& packet) noexcept;
+  [[nodiscard]] bool is_dark_sector(std::int64_t late_ns, std::int64_t turn_ns) noexcept;
   [[nodiscard]] bool restarts(const PacketTiming& packet) const noexcept;
   void end_turn(SweepPair& sweeps) noexcept;
   void close(SweepPair& sweeps) noexcept;
@@ -71,7 +74,14 @@ class SweepBuilder {
   std::int64_t newest_packet_ns_ = 0;
   std::optional<std::uint32_t> newest_sequence_;
   int newest_azimuth_centideg_ = 0;
-  std::optional<int> dark_from_centideg_;  ///< where the last gap in time began
+  /// In time, where no packets came: the last long ones.
+  struct Gap {
+    std::int64_t start_ns = 0;
+    std::int64_t length_ns = 0;
+    int azimuth_centideg = 0;  ///< of the packet before it
+  };
+  std::array<Gap, 4> gaps_{};
+  std::size_t next_gap_ = 0;
   bool started_ = false;
   bool open_ = false;         ///< the current sweep has begun
   bool lost_ = false;         ///< packets are missing before the block to come

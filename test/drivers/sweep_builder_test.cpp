@@ -139,6 +139,24 @@ TEST(SweepBuilder, ASectorThatIsDarkInEveryTurnIsNoLoss) {
   EXPECT_EQ(sensor.sizes[3], 180U);
 }
 
+TEST(SweepBuilder, CountsLossesThatComeAgainAndAgain) {
+  for (const int every : {2, 3, 5, 50}) {
+    OneDegreeSensor sensor;
+    sensor.turn(360);
+    std::uint64_t lost = 0;
+    for (int packet = 0; packet < 4 * 90; ++packet) {
+      if (packet % every == 0 && packet + 1 < 4 * 90) {
+        sensor.lose(kBlocksAPacket);
+        ++lost;
+      } else {
+        sensor.turn(kBlocksAPacket);
+      }
+    }
+    EXPECT_EQ(sensor.builder.counters().lost_packets, lost) << every;
+    for (std::size_t i = 1; i < sensor.complete.size(); ++i) EXPECT_FALSE(sensor.complete[i]) << every;
+  }
+}
+
 TEST(SweepBuilder, CutsATurnThatLastsTooLong) {
   OneDegreeSensor sensor;
   sensor.turn(360 + 20);
