@@ -15,7 +15,6 @@ namespace {
 
 using test::DecoderBench;
 using test::kHourUtcNs;
-using test::kReceiveUtcNs;
 using test::kTopOfHourUs;
 using test::VelodynePacket;
 
@@ -88,8 +87,9 @@ TEST(BlockDecoder, TimesTheBlocksOfEachModel) {
       ASSERT_EQ(bench.decode(packet.bytes()).status, DecodeStatus::decoded);
       ASSERT_EQ(bench.points().size(), 12U);
       for (std::size_t block = 0; block < 12; ++block) {
+        const std::size_t firing = block / returns;
         EXPECT_NEAR(static_cast<double>(bench.points()[block].time_s) * 1e6,
-                    block_us * static_cast<double>(block / returns), 1e-2);
+                    block_us * static_cast<double>(firing), 1e-2);
       }
     }
   }
