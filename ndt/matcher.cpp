@@ -88,37 +88,32 @@ struct Estimate {
 /// How a search looks at the map, and when it may stop.
 struct Phase {
   Covariance covariance{};
-  Reach reach{};
   double narrowness = 1.0;   ///< factor of d2: below 1, voxels pull from farther away
   double converged_m = 0.0;  ///< a step shorter than both ends it
   double converged_rad = 0.0;
 };
 
-/// From far away: few points, which a step may move far, and distributions so wide that the nearest optimum
+/// From far away: few points, and distributions so wide that the nearest optimum
 /// is the right one from twice as far. Where it ends is near enough for the other phases.
-constexpr Phase kCoarse{.covariance = Covariance::wide,
-                        .reach = {.pair = 1.5, .margin = 0.4},
-                        .narrowness = 0.05,
-                        .converged_m = 0.02,
-                        .converged_rad = 2e-3};
+constexpr Phase kCoarse{
+    .covariance = Covariance::wide, .narrowness = 0.05, .converged_m = 0.02, .converged_rad = 2e-3};
 
 /// Of a search that another one goes on from.
 constexpr double kLeadingTolerance = 30.0;
 
 class Search {
  public:
-  Search(const VoxelMap& map, PairGroups& groups, const MatcherSettings& settings,
-         const ScoreConstants& constants) noexcept
-      : map_(map), groups_(groups), settings_(settings), constants_(constants) {}
+  Search(const VoxelMap& map, const MatcherSettings& settings, const ScoreConstants& constants) noexcept
+      : map_(map), settings_(settings), constants_(constants) {}
 
-  [[nodiscard]] Estimate evaluate_at(const Pose& pose, const Phase& phase) noexcept {
+  [[nodiscard]] Estimate evaluate_at(const Pose& pose, PairGroups& groups, const Phase& phase) noexcept {
     ++iterations_;
     const ScoreConstants constants{.d1 = constants_.d1, .d2 = phase.narrowness * constants_.d2};
-    return {pose, evaluate(map_, groups_, pose, phase.covariance, constants)};
+    return {pose, evaluate(map_, groups, pose, phase.covariance, constants)};
   }
 
   /// Climbs from `best` until a step is negligible (true) or the iterations are spent (false).
-  [[nodiscard]] bool climb(Estimate& best, const Phase& phase) noexcept {
+  [[nodiscard]] bool climb(Estimate& best, PairGroups& groups, const Phase& phase) noexcept {
     constexpr double kMinDamping = 1e-5;
     constexpr double kMaxDamping = 1e4;
     double damping = kMinDamping;
@@ -126,7 +121,7 @@ class Search {
       const Twist step = limited(newton_step(best.objective, damping), settings_);
       if (step.head<3>().norm() < phase.converged_m && step.tail<3>().norm() < phase.converged_rad)
         return true;
-      const Estimate next = evaluate_at(moved(best.pose, step), phase);
+      const Estimate next = evaluate_at(moved(best.pose, step), groups, phase);
       if (next.objective.score >= best.objective.score) {
         best = next;
         damping = std::max(0.1 * damping, kMinDamping);
@@ -142,7 +137,6 @@ class Search {
 
  private:
   const VoxelMap& map_;
-  PairGroups& groups_;
   const MatcherSettings& settings_;
   ScoreConstants constants_;
   int iterations_ = 0;
@@ -165,35 +159,37 @@ MatchResult Matcher::match(const VoxelMap& map, std::span<const Eigen::Vector3f>
   leading_phase.converged_rad *= kLeadingTolerance;
   result.points = points_m.size();
   result.best_likelihood = constants.d1;
-  Search search(map, groups_, settings_, constants);
+  Search search(map, settings_, constants);
 
   Pose start = guess;
   if (settings_.coarse_points != 0) {
     const std::size_t stride = std::max<std::size_t>(1, points_m.size() / settings_.coarse_points);
-    groups_.assign(points_m, stride, kCoarse.reach);
-    Estimate coarse = search.evaluate_at(guess, kCoarse);
-    if (coarse.objective.pairs != 0) static_cast<void>(search.climb(coarse, kCoarse));
+    coarse_groups_.assign(points_m, stride);
+    Estimate coarse = search.evaluate_at(guess, coarse_groups_, kCoarse);
+    if (coarse.objective.pairs != 0) static_cast<void>(search.climb(coarse, coarse_groups_, kCoarse));
     start = coarse.pose;
+    result.pairs_dropped = coarse_groups_.dropped_pairs();
   }
 
-  groups_.assign(points_m, 1, wide_phase.reach);
-  Estimate best = search.evaluate_at(start, wide_phase);
-  result.converged =
-      best.objective.pairs != 0 && search.climb(best, settings_.sharpen ? leading_phase : wide_phase);
+  groups_.assign(points_m, 1);
+  Estimate best = search.evaluate_at(start, groups_, wide_phase);
+  result.converged = best.objective.pairs != 0 &&
+                     search.climb(best, groups_, settings_.sharpen ? leading_phase : wide_phase);
   groups_.update(map, best.pose, Covariance::wide);
   const PointScores points = score_points(map, groups_, best.pose, constants);
   result.score = best.objective.score;
   if (settings_.sharpen && result.converged) {
-    Estimate sharp = search.evaluate_at(best.pose, sharp_phase);
-    result.sharpened = search.climb(sharp, sharp_phase) &&
+    Estimate sharp = search.evaluate_at(best.pose, groups_, sharp_phase);
+    result.sharpened = search.climb(sharp, groups_, sharp_phase) &&
                        is_trustworthy(best, sharp, points.points_matched, map.resolution_m());
     if (result.sharpened) {
       best = sharp;
     } else {
-      result.converged = search.climb(best, wide_phase);
+      result.converged = search.climb(best, groups_, wide_phase);
     }
   }
   result.pose = best.pose;
+  result.pairs_dropped += groups_.dropped_pairs();
   result.covariance = to_roll_pitch_yaw_covariance(laplace_covariance(best.objective), best.pose);
   result.iterations = search.iterations();
   result.points_matched = points.points_matched;

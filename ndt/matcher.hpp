@@ -34,6 +34,7 @@ struct MatchResult {
   double best_likelihood = 1.0;             ///< the best score that a point can have with one voxel
   std::size_t points = 0;
   std::size_t points_matched = 0;  ///< with a voxel near
+  std::size_t pairs_dropped = 0;   ///< candidates that found no room in their group, over the whole search
   int iterations = 0;              ///< evaluations of the objective
   bool converged = false;
   bool sharpened = false;
@@ -45,8 +46,7 @@ struct MatchResult {
 class Matcher {
  public:
   /// `max_points`: of a scan; what is beyond is left out.
-  explicit Matcher(const MatcherSettings& settings, std::size_t max_points = kMaxPoints)
-      : settings_(settings), groups_(max_points) {}
+  explicit Matcher(const MatcherSettings& settings, std::size_t max_points = kMaxPoints);
 
   /// `points_m`: the filtered scan, frame `vehicle`, neighbours near each other (VoxelGrid). `guess`: map <-
   /// vehicle.
@@ -56,7 +56,11 @@ class Matcher {
   static constexpr std::size_t kMaxPoints = 1 << 15;
 
  private:
+  /// The coarse search's pairs: a step of it moves the points far.
+  static constexpr Reach kCoarseReach{.pair = 1.5, .margin = 0.4};
+
   MatcherSettings settings_;
+  PairGroups coarse_groups_;
   PairGroups groups_;
 };
 

@@ -19,20 +19,18 @@ constexpr float kFarthest_m = 1e4F;
 
 }  // namespace
 
-void PairGroups::assign(std::span<const Eigen::Vector3f> points_m, std::size_t stride,
-                        const Reach& reach) noexcept {
-  reach_ = reach;
-  size_ = 0;
+void PairGroups::assign(std::span<const Eigen::Vector3f> points_m, std::size_t stride) noexcept {
+  std::size_t size = 0;
   group_count_ = 0;
   dropped_pairs_ = 0;
-  for (std::size_t next = 0; next < points_m.size() && size_ < points_m_.size();) {
+  for (std::size_t next = 0; next < points_m.size() && size < points_m_.size();) {
     PairGroup& group = groups_[group_count_++];
     group = PairGroup{};
-    group.first_point = size_;
-    for (; next < points_m.size() && size_ < points_m_.size() && group.point_count < kGroupPoints;
+    group.first_point = size;
+    for (; next < points_m.size() && size < points_m_.size() && group.point_count < points_per_group_;
          next += stride) {
       if (!(points_m[next].cwiseAbs().maxCoeff() < kFarthest_m)) continue;  // NaN is not
-      points_m_[size_++] = points_m[next];
+      points_m_[size++] = points_m[next];
       ++group.point_count;
       group.centre_m += points_m[next].cast<double>();
     }

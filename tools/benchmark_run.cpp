@@ -77,7 +77,7 @@ BenchmarkResult run_benchmark(const ndt::VoxelMap& map, std::span<const std::fil
   constexpr std::size_t kGridCapacity = 1 << 18;
   BenchmarkResult result;
   ndt::VoxelGrid grid(settings.leaf_m, kGridCapacity);
-  ndt::Matcher matcher({});
+  ndt::Matcher matcher({}, kGridCapacity);
   Perturbation perturbation(settings);
   std::vector<ndt::StampedPose> track;
   for (std::size_t i = 0; i < scans.size(); ++i) {

@@ -32,7 +32,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<Eigen::Vector3f> scan;
     for (float x = -8.0F; x < 8.0F; x += 1.7F) scan.emplace_back(x, 0.3F * x, -0.2F * x);
     PairGroups groups(scan.size());
-    groups.assign(scan, 1, {});
+    groups.assign(scan, 1);
     (void)evaluate(map, groups, Pose::Identity(), Covariance::wide, {});
   } catch (const std::runtime_error&) {
   }

@@ -43,7 +43,7 @@ struct Yard {
 Objective evaluate_scan(const VoxelMap& map, std::span<const Eigen::Vector3f> scan, const Pose& pose,
                         Covariance covariance) {
   PairGroups groups(scan.size());
-  groups.assign(scan, 1, {});
+  groups.assign(scan, 1);
   const Objective objective = evaluate(map, groups, pose, covariance, kConstants);
   EXPECT_EQ(groups.dropped_pairs(), 0U);
   return objective;
@@ -150,7 +150,7 @@ TEST(PairGroups, WhatIsRememberedEqualsWhatIsLookedUpAnew) {
   const Yard yard(3);
   std::mt19937_64 random(16);
   PairGroups groups(yard.scan.size());
-  groups.assign(yard.scan, 1, {});
+  groups.assign(yard.scan, 1);
   for (int i = 0; i < 30; ++i) {
     // Within the margin, beyond it for points that are far away, beyond it for all.
     const Pose pose = yard.truth * random_pose(random, i < 20 ? 0.1 : 1.0, i < 10 ? 0.001 : 0.05);
@@ -164,15 +164,36 @@ TEST(PairGroups, TakeAsManyPointsAsTheyHaveRoomForAndThoseOfAStride) {
   const Yard yard(3);
   const std::span<const Eigen::Vector3f> scan(yard.scan);
   PairGroups small(300);
-  small.assign(scan, 1, {});
+  small.assign(scan, 1);
   expect_same(evaluate(yard.map, small, yard.truth, Covariance::wide, kConstants),
               evaluate_scan(yard.map, scan.first(300), yard.truth, Covariance::wide), 1e-5);
   std::vector<Eigen::Vector3f> every_third;
   for (std::size_t i = 0; i < scan.size(); i += 3) every_third.push_back(scan[i]);
   PairGroups thinned(scan.size());
-  thinned.assign(scan, 3, {});
+  thinned.assign(scan, 3);
   expect_same(evaluate(yard.map, thinned, yard.truth, Covariance::wide, kConstants),
               evaluate_scan(yard.map, every_third, yard.truth, Covariance::wide), 1e-5);
+}
+
+TEST(PairGroups, HaveRoomForTheCandidatesOfAMapThatIsFullOfVoxels) {
+  std::mt19937_64 random(19);
+  std::uniform_real_distribution<double> coordinate_m(0.0, 8.0);
+  std::vector<Eigen::Vector3d> cloud(8 * 8 * 8 * 50);
+  for (Eigen::Vector3d& point_m : cloud)
+    point_m = {coordinate_m(random), coordinate_m(random), coordinate_m(random)};
+  const MapImage image = build_map(cloud, kResolution_m);
+  const VoxelMap map(image.bytes());
+  ASSERT_EQ(map.voxels().size(), 512U);
+  const std::vector<Eigen::Vector3f> scan(200, {4.0F, 4.0F, 4.0F});
+  for (const Reach& reach : {Reach{}, Reach{.pair = 1.5, .margin = 0.4}}) {
+    PairGroups groups(scan.size(), reach);
+    groups.assign(scan, 1);
+    groups.update(map, Pose::Identity(), Covariance::wide);
+    std::size_t pairs = 0;
+    for (const PairGroup& group : groups.groups()) pairs += group.pair_count;
+    EXPECT_GT(pairs, 5 * scan.size());
+    EXPECT_EQ(groups.dropped_pairs(), 0U) << reach.pair;
+  }
 }
 
 TEST(PairKernel, EveryInstructionSetGivesTheSame) {
@@ -255,6 +276,7 @@ TEST(Matcher, FindsTheTruthFromFartherAwayWithTheCoarseSearch) {
         const MatchResult result =
             matcher.match(yard.map, yard.scan, yard.truth * random_pose(random, 1.2, 0.1));
         EXPECT_LE(result.iterations, settings.max_iterations);
+        EXPECT_EQ(result.pairs_dropped, 0U);
         count += (result.pose.translation() - yard.truth.translation()).norm() < 0.1 ? 1 : 0;
       }
     }
