@@ -2,6 +2,14 @@
 
 namespace landfix::drivers {
 
+std::uint64_t rejected(const StatusCounts& counts) noexcept {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (is_rejected(static_cast<DecodeStatus>(i))) sum += counts[i];
+  }
+  return sum;
+}
+
 std::string_view to_string(DecodeStatus status) noexcept {
   switch (status) {
     case DecodeStatus::decoded:

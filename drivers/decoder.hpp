@@ -3,6 +3,7 @@
 // it is used.
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -41,6 +42,11 @@ inline constexpr std::size_t kDecodeStatusCount = 12;
 [[nodiscard]] constexpr bool is_rejected(DecodeStatus status) noexcept {
   return status != DecodeStatus::decoded && status != DecodeStatus::telemetry;
 }
+
+using StatusCounts = std::array<std::uint64_t, kDecodeStatusCount>;  ///< packets, by DecodeStatus
+
+/// Data packets that gave no points.
+[[nodiscard]] std::uint64_t rejected(const StatusCounts& counts) noexcept;
 
 /// One line of meaning, in English.
 [[nodiscard]] std::string_view to_string(DecodeStatus status) noexcept;

@@ -13,14 +13,6 @@ std::string_view to_string(Stage stage) noexcept {
   return kNames[static_cast<std::size_t>(stage)];
 }
 
-std::uint64_t PipelineCounters::rejected() const noexcept {
-  std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < by_status.size(); ++i) {
-    if (drivers::is_rejected(static_cast<drivers::DecodeStatus>(i))) sum += by_status[i];
-  }
-  return sum;
-}
-
 std::optional<SweepResult> Pipeline::process(const UdpPacket& packet) noexcept {
   const bool is_telemetry =
       settings_.telemetry_port != 0 && packet.destination_port == settings_.telemetry_port;
@@ -68,6 +60,7 @@ SweepResult Pipeline::localize(const drivers::Sweep& sweep) noexcept {
 
   counters_.points_overflowed += sweep.overflowed();
   counters_.points_unfiltered += grid_.dropped_points();
+  counters_.pairs_dropped += fix.match.pairs_dropped;
   return {.fix = fix,
           .points_filtered = points_m.size(),
           .complete = sweep.complete(),

@@ -33,7 +33,7 @@ struct PipelineSettings {
   std::size_t points_per_sweep = 0;               ///< room for a sweep
   ndt::Pose sensor_pose = ndt::Pose::Identity();  ///< vehicle <- sensor
   double leaf_m = 2.0;
-  std::size_t filter_capacity = 1 << 16;  ///< points after the filter
+  std::size_t filter_capacity = ndt::Matcher::kMaxPoints;  ///< points after the filter
   bool deskew = true;
   ndt::LocalizerSettings localizer{};
   ndt::Pose initial_pose = ndt::Pose::Identity();  ///< map <- vehicle
@@ -52,13 +52,14 @@ struct PipelineCounters {
   std::uint64_t packets = 0;        ///< decoded, rejected or telemetry
   std::uint64_t other_ports = 0;    ///< not decoded
   std::uint64_t other_senders = 0;  ///< to the sensor's port, not from its address: not decoded
-  std::array<std::uint64_t, drivers::kDecodeStatusCount> by_status{};
+  drivers::StatusCounts by_status{};
   std::uint64_t points_overflowed = 0;  ///< did not fit the sweep
   std::uint64_t points_unfiltered = 0;  ///< did not fit the filter, or were not finite
+  std::uint64_t pairs_dropped = 0;      ///< of a point and a voxel, for want of room in the matcher
   std::uint64_t frames_dropped = 0;     ///< that the bus did not take
   std::uint64_t frames_saturated = 0;   ///< poses with a value beyond its signal's range
 
-  [[nodiscard]] std::uint64_t rejected() const noexcept;
+  [[nodiscard]] std::uint64_t rejected() const noexcept { return drivers::rejected(by_status); }
 };
 
 /// Allocates in its constructor and never after.

@@ -1,31 +1,23 @@
 #include "tools/decode_report.hpp"
 
-#include <utility>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace landfix::tools {
-namespace {
-
 using drivers::DecodeStatus;
 
-/// The reasons for which packets were rejected, with how many.
-std::vector<std::pair<std::string_view, std::uint64_t>> rejections(const DecodeSummary& summary) {
+std::vector<std::pair<std::string_view, std::uint64_t>> rejections(const drivers::StatusCounts& packets) {
   std::vector<std::pair<std::string_view, std::uint64_t>> all;
-  for (std::size_t i = 0; i < summary.packets.size(); ++i) {
+  for (std::size_t i = 0; i < packets.size(); ++i) {
     const auto status = static_cast<DecodeStatus>(i);
-    if (summary.packets[i] == 0 || !drivers::is_rejected(status)) continue;
-    all.emplace_back(drivers::to_string(status), summary.packets[i]);
+    if (packets[i] != 0 && drivers::is_rejected(status)) all.emplace_back(to_string(status), packets[i]);
   }
   return all;
 }
 
-}  // namespace
-
 std::string reasons(const DecodeSummary& summary) {
   std::string text;
-  for (const auto& [reason, count] : rejections(summary)) {
+  for (const auto& [reason, count] : rejections(summary.packets)) {
     text += fmt::format("{}{} x {}", text.empty() ? "" : ", ", count, reason);
   }
   return text;
@@ -44,7 +36,7 @@ void print_json(const drivers::SensorModel& model, const DecodeSummary& summary)
                       {"last_time", sweep.last_time_s}});
   }
   nlohmann::json reasons = nlohmann::json::object();
-  for (const auto& [reason, count] : rejections(summary)) reasons[std::string(reason)] = count;
+  for (const auto& [reason, count] : rejections(summary.packets)) reasons[std::string(reason)] = count;
   const nlohmann::json object{{"sensor", model.name},
                               {"packets",
                                {{"total", summary.decoded() + summary.rejected()},
@@ -64,7 +56,8 @@ void print_text(const drivers::SensorModel& model, const DecodeSummary& summary,
   fmt::print("{}: {} packets decoded, {} rejected, {} lost, {} of telemetry, {} to other ports\n",
              model.display_name, summary.decoded(), summary.rejected(), summary.stream.lost_packets,
              summary.of(DecodeStatus::telemetry), summary.elsewhere);
-  for (const auto& [reason, count] : rejections(summary)) fmt::print("  rejected {}: {}\n", count, reason);
+  for (const auto& [reason, count] : rejections(summary.packets))
+    fmt::print("  rejected {}: {}\n", count, reason);
   if (summary.stream.clock_steps != 0) fmt::print("  {} steps of a clock\n", summary.stream.clock_steps);
   if (summary.stream.restarts != 0) fmt::print("  {} restarts of the sensor\n", summary.stream.restarts);
   std::size_t complete = 0;

@@ -1,9 +1,10 @@
 // What came of decoding a capture, for a person and for a program.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "drivers/decoder.hpp"
@@ -22,8 +23,8 @@ struct SweepSummary {
 };
 
 struct DecodeSummary {
-  std::array<std::uint64_t, drivers::kDecodeStatusCount> packets{};  ///< by drivers::DecodeStatus
-  std::uint64_t elsewhere = 0;                                       ///< packets to other ports
+  drivers::StatusCounts packets{};
+  std::uint64_t elsewhere = 0;  ///< packets to other ports
   drivers::StreamCounters stream;
   std::vector<SweepSummary> sweeps;
 
@@ -32,14 +33,12 @@ struct DecodeSummary {
   }
   [[nodiscard]] std::uint64_t decoded() const { return of(drivers::DecodeStatus::decoded); }
   /// Data packets that gave no points.
-  [[nodiscard]] std::uint64_t rejected() const {
-    std::uint64_t sum = 0;
-    for (std::size_t i = 0; i < packets.size(); ++i) {
-      if (drivers::is_rejected(static_cast<drivers::DecodeStatus>(i))) sum += packets[i];
-    }
-    return sum;
-  }
+  [[nodiscard]] std::uint64_t rejected() const { return drivers::rejected(packets); }
 };
+
+/// Why packets were rejected, and how many for each reason.
+[[nodiscard]] std::vector<std::pair<std::string_view, std::uint64_t>> rejections(
+    const drivers::StatusCounts& packets);
 
 /// "12 x its sweep has been handed over already, ...": why packets were rejected.
 [[nodiscard]] std::string reasons(const DecodeSummary& summary);

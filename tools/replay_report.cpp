@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include "tools/decode_report.hpp"
 #include "tools/evaluation_report.hpp"
 
 namespace landfix::tools {
@@ -50,6 +51,7 @@ struct StageTimes {
 nlohmann::ordered_json to_json(const ReplayReport& report) {
   const ReplayResult& result = report.result;
   const platform::PipelineCounters& counters = report.pipeline.counters();
+  const drivers::StreamCounters& stream = report.pipeline.stream_counters();
   nlohmann::ordered_json stages;
   for (const StageTimes& stage : stage_times(report.pipeline)) {
     stages[stage.name] = {{"p50", stage.p50_ms}, {"p99", stage.p99_ms}, {"max", stage.max_ms}};
@@ -63,12 +65,15 @@ nlohmann::ordered_json to_json(const ReplayReport& report) {
   object["time_source"] = time_source(result);
   object["packets"] = {{"total", counters.packets},
                        {"rejected", counters.rejected()},
-                       {"lost", report.pipeline.stream_counters().lost_packets},
+                       {"lost", stream.lost_packets},
                        {"dropped", 0},  // a replay reads as fast as it solves
                        {"other_senders", counters.other_senders},
                        {"other_ports", counters.other_ports}};
   object["points_dropped"] = {{"sweep_full", counters.points_overflowed},
                               {"filter_full_or_not_finite", counters.points_unfiltered}};
+  object["pairs_dropped"] = counters.pairs_dropped;
+  object["clock_steps"] = stream.clock_steps;
+  object["restarts"] = stream.restarts;
   object["can_frames"] = {{"dropped", counters.frames_dropped}, {"saturated", counters.frames_saturated}};
   object["points_mean"] = result.points_mean();
   object["iterations_mean"] = result.iterations_mean();
@@ -86,24 +91,26 @@ nlohmann::ordered_json to_json(const ReplayReport& report) {
 std::string to_text(const ReplayReport& report) {
   const ReplayResult& result = report.result;
   const platform::PipelineCounters& counters = report.pipeline.counters();
+  const drivers::StreamCounters& stream = report.pipeline.stream_counters();
   const auto count = [&result](ndt::State state) { return result.count(state); };
   std::string text = fmt::format(
       "sweeps       {}: {} tracking, {} degraded, {} predicted, {} lost, {} before the first match\n"
       "             {} partial; stamps by the {} clock\n"
-      "packets      {}, {} rejected; {} from other senders, {} to other ports\n"
+      "packets      {}, {} rejected, {} lost; {} from other senders, {} to other ports\n"
       "iterations   {:.2f} a sweep on average\n",
       result.sweeps.size(), count(ndt::State::tracking), count(ndt::State::degraded),
       count(ndt::State::predicted), count(ndt::State::lost), count(ndt::State::init), result.partial(),
-      time_source(result), counters.packets, counters.rejected(), counters.other_senders,
+      time_source(result), counters.packets, counters.rejected(), stream.lost_packets, counters.other_senders,
       counters.other_ports, result.iterations_mean());
-  for (std::size_t i = 1; i < drivers::kDecodeStatusCount; ++i) {
-    if (counters.by_status[i] == 0 || !drivers::is_rejected(static_cast<drivers::DecodeStatus>(i))) continue;
-    text += fmt::format("  rejected   {}: {}\n", counters.by_status[i],
-                        to_string(static_cast<drivers::DecodeStatus>(i)));
+  for (const auto& [reason, packets] : rejections(counters.by_status)) {
+    text += fmt::format("  rejected   {}: {}\n", packets, reason);
   }
-  const std::array<std::pair<std::uint64_t, std::string_view>, 4> losses{
+  if (stream.clock_steps != 0) text += fmt::format("             {} steps of a clock\n", stream.clock_steps);
+  if (stream.restarts != 0) text += fmt::format("             {} restarts of the sensor\n", stream.restarts);
+  const std::array<std::pair<std::uint64_t, std::string_view>, 5> losses{
       {{counters.points_overflowed, "points that did not fit the sweep"},
        {counters.points_unfiltered, "points that did not fit the filter, or were not finite"},
+       {counters.pairs_dropped, "pairs of a point and a voxel that did not fit the matcher"},
        {counters.frames_dropped, "CAN frames that could not be written"},
        {counters.frames_saturated, "poses beyond what their CAN frames can say"}}};
   for (const auto& [lost, what] : losses) {
