@@ -7,11 +7,17 @@
 namespace landfix::ndt {
 
 VoxelGrid::VoxelGrid(double leaf_m, std::size_t capacity)
-    : inverse_leaf_1pm_(1.0F / static_cast<float>(leaf_m)),
-      table_(std::bit_ceil(2 * std::max<std::size_t>(capacity, 4))),
-      cells_(capacity),
+    : leaf_m_(leaf_m),
+      keys_(capacity + 1),
+      blocks_(capacity + 1),
+      slots_(capacity + 1),
+      // Where slots are rarely taken already a block is found at the first look.
+      table_(std::bit_ceil(4 * std::max<std::size_t>(capacity, 4))),
+      order_(2 * capacity),
+      cells_(8 * capacity + 1),
       centroids_(capacity) {
-  hash_shift_ = 64U - static_cast<unsigned>(std::countr_zero(table_.size()));
+  keys_[kNoRoom] = ~std::uint64_t{0};  // no block's: its lowest bits are not 0
+  pending_.fill(Eigen::Vector3f::Zero());
 }
 
 }  // namespace landfix::ndt
