@@ -126,6 +126,8 @@ void SweepBuilder::close(SweepPair& sweeps) noexcept {
   if (has_cut_) return;
   has_cut_ = true;
   sweeps.cut();
+  // Nothing of an older sweep shows until the next begins.
+  sweeps.current().begin(sweeps.completed().end_utc_ns(), false, clock_.time_source());
 }
 
 bool SweepBuilder::flush(SweepPair& sweeps) noexcept {

@@ -1,7 +1,5 @@
 #include "ndt/motion.hpp"
 
-#include <algorithm>
-
 namespace landfix::ndt {
 
 Velocity velocity_between(const StampedPose& from, const StampedPose& to) noexcept {
@@ -14,22 +12,22 @@ Pose predict(const StampedPose& from, const Velocity& velocity, std::int64_t sta
   return from.pose * pose_exp(velocity * (static_cast<double>(stamp_utc_ns - from.stamp_utc_ns) * 1e-9));
 }
 
-Deskew::Deskew(const Velocity& velocity, float duration_s, const Pose& sensor_pose) noexcept {
-  const double step_s = static_cast<double>(duration_s) / kSteps;
-  if (step_s > 0.0) steps_per_s_ = static_cast<float>(1.0 / step_s);
-  for (std::size_t i = 0; i <= kSteps; ++i) {
-    const double before_end_s = step_s * static_cast<double>(i) - static_cast<double>(duration_s);
-    steps_[i] = (pose_exp(velocity * before_end_s) * sensor_pose).affine().cast<float>();
+void Deskew::begin(std::int64_t start_utc_ns, const Velocity& velocity, const Pose& sensor_pose) noexcept {
+  start_utc_ns_ = start_utc_ns;
+  velocity_ = velocity;
+  const Pose step = pose_exp(velocity / static_cast<double>(kSteps_per_s));
+  Pose vehicle = Pose::Identity();  // at the start <- at the step
+  Eigen::Matrix4f pose = sensor_pose.matrix().cast<float>();
+  for (Step& at : steps_) {
+    vehicle = vehicle * step;
+    const Eigen::Matrix4f next = (vehicle * sensor_pose).matrix().cast<float>();
+    at = {.pose = pose, .change = next - pose};
+    pose = next;
   }
 }
 
-Eigen::Vector3f Deskew::operator()(const drivers::Point& point) const noexcept {
-  const float place = std::clamp(point.time_s * steps_per_s_, 0.0F, static_cast<float>(kSteps));
-  const std::size_t step = std::min(static_cast<std::size_t>(place), kSteps - 1);
-  const Eigen::Vector4f p(point.x, point.y, point.z, 1.0F);
-  const Eigen::Vector3f before = steps_[step] * p;
-  const Eigen::Vector3f after = steps_[step + 1] * p;
-  return before + (place - static_cast<float>(step)) * (after - before);
+Pose Deskew::from_start(std::int64_t stamp_utc_ns) const noexcept {
+  return pose_exp(velocity_ * (static_cast<double>(start_utc_ns_ - stamp_utc_ns) * 1e-9));
 }
 
 }  // namespace landfix::ndt

@@ -1,8 +1,10 @@
-// The vehicle's motion between and within sweeps: constant velocity over a sweep, and points brought to its
-// end.
+// The vehicle's motion between and within sweeps: constant velocity over a sweep, and points brought to one
+// time.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -23,24 +25,42 @@ using Velocity = Twist;
 [[nodiscard]] Pose predict(const StampedPose& from, const Velocity& velocity,
                            std::int64_t stamp_utc_ns) noexcept;
 
-/// Undoes the sweep's motion distortion: a point seen at its firing time, from where the sensor was then, as
-/// it would be seen from the vehicle at the end of the sweep.
+/// Undoes a sweep's motion distortion point by point, as the points come: when the sweep will end is not
+/// known yet, so they are brought to its start, and what is left of them to its end by one rigid motion.
 class Deskew {
  public:
-  /// `duration_s`: time of the sweep's last point. `sensor_pose`: vehicle <- sensor.
-  Deskew(const Velocity& velocity, float duration_s, const Pose& sensor_pose) noexcept;
+  /// `velocity`: constant over the sweep. `sensor_pose`: vehicle <- sensor.
+  void begin(std::int64_t start_utc_ns, const Velocity& velocity, const Pose& sensor_pose) noexcept;
 
-  /// Frame `vehicle` at the end of the sweep [m].
-  [[nodiscard]] Eigen::Vector3f operator()(const drivers::Point& point) const noexcept;
+  /// A point seen at its firing time, from where the sensor was then, as it would be seen from the vehicle at
+  /// the start [m]. `late_s`: how much later than the start the point's own sweep began; a firing that was
+  /// overtaken moves a sweep's start.
+  [[nodiscard]] Eigen::Vector3f to_start(const drivers::Point& point, float late_s) const noexcept {
+    // A time that is not a number counts as the start.
+    const float place = (point.time_s + late_s) * kSteps_per_s;
+    const float step = std::min(std::max(0.0F, std::floor(place)), static_cast<float>(kSteps - 1));
+    const Step& at = steps_[static_cast<std::size_t>(step)];
+    const float part = place - step;
+    return ((at.pose + part * at.change) * Eigen::Vector4f(point.x, point.y, point.z, 1.0F)).head<3>();
+  }
+
+  [[nodiscard]] std::int64_t start_utc_ns() const noexcept { return start_utc_ns_; }
+  /// vehicle at that time <- vehicle at the start.
+  [[nodiscard]] Pose from_start(std::int64_t stamp_utc_ns) const noexcept;
 
  private:
-  // The motion is tabulated and interpolated: over 1/64 of a turn, even at 1 rad/s and 100 m, the chord is
-  // within 0.1 mm of the arc.
-  static constexpr std::size_t kSteps = 64;
+  // The motion is tabulated and interpolated: over 1.6 ms, even at 1 rad/s and 100 m, the chord is within
+  // 0.1 mm of the arc. A sweep of 5 Hz is cut after 0.3 s; what comes later goes straight on.
+  static constexpr float kSteps_per_s = 640.0F;
+  static constexpr std::size_t kSteps = 192;
 
-  using Transform = Eigen::Matrix<float, 3, 4>;  // vehicle at the end <- sensor at the step
-  std::array<Transform, kSteps + 1> steps_;
-  float steps_per_s_ = 0.0F;
+  struct Step {
+    Eigen::Matrix4f pose;    ///< vehicle at the start <- sensor at the step
+    Eigen::Matrix4f change;  ///< to the next
+  };
+  std::array<Step, kSteps> steps_;
+  Velocity velocity_ = Velocity::Zero();
+  std::int64_t start_utc_ns_ = 0;
 };
 
 }  // namespace landfix::ndt

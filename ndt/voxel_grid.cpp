@@ -84,7 +84,7 @@ std::uint32_t VoxelGrid::find_or_open(std::uint64_t key, std::uint32_t hash) noe
   return block;
 }
 
-std::span<const Eigen::Vector3f> VoxelGrid::finish() noexcept {
+std::span<Eigen::Vector3f> VoxelGrid::finish() noexcept {
   add_pending();
   const std::span<const std::uint32_t> cells = list_cells();
   std::size_t points = 0;
@@ -96,7 +96,7 @@ std::span<const Eigen::Vector3f> VoxelGrid::finish() noexcept {
     points += sum[3];
   }
   dropped_points_ = points_ - points;
-  return std::span<const Eigen::Vector3f>(centroids_).first(cells.size());
+  return std::span(centroids_).first(cells.size());
 }
 
 std::span<const std::uint32_t> VoxelGrid::list_cells() noexcept {

@@ -29,8 +29,9 @@ class VoxelGrid {
     if (pending_size_ == kCellBatch) add_pending();
   }
   void add(std::span<const Eigen::Vector3f> points_m) noexcept;
-  /// The centroids, neighbours in space near each other in memory. Valid until the next `clear`.
-  [[nodiscard]] std::span<const Eigen::Vector3f> finish() noexcept;
+  /// The centroids, neighbours in space near each other in memory. The caller may move them; they
+  /// are valid until the next `finish`.
+  [[nodiscard]] std::span<Eigen::Vector3f> finish() noexcept;
 
   /// Points since `clear` that are in no centroid; known once `finish` has run.
   [[nodiscard]] std::size_t dropped_points() const noexcept { return dropped_points_; }

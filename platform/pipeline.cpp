@@ -3,13 +3,13 @@
 #include <limits>
 #include <numeric>
 
-#include "ndt/motion.hpp"
 #include "platform/monotonic_clock.hpp"
 
 namespace landfix::platform {
 
 std::string_view to_string(Stage stage) noexcept {
-  constexpr std::array<std::string_view, kStageCount> kNames{"decode", "filter", "match", "publish"};
+  constexpr std::array<std::string_view, kStageCount> kNames{"decode", "filter", "match", "publish",
+                                                             "last_packet"};
   return kNames[static_cast<std::size_t>(stage)];
 }
 
@@ -29,8 +29,14 @@ std::optional<SweepResult> Pipeline::process(const UdpPacket& packet) noexcept {
   decode_ns_ += monotonic_ns() - began_ns;
   ++counters_.packets;
   ++counters_.by_status[static_cast<std::size_t>(decoded.status)];
-  if (!decoded.sweep_completed) return std::nullopt;
-  return localize(sweeps_.completed());
+  std::optional<SweepResult> result;
+  if (decoded.sweep_completed) {
+    result = localize(sweeps_.completed());
+    record(Stage::last_packet, monotonic_ns() - began_ns);
+  }
+  // Those of the next sweep that the packet holds come after the match, so that its velocity serves them.
+  filter_new_points(sweeps_.current());
+  return result;
 }
 
 std::optional<SweepResult> Pipeline::finish() noexcept {
@@ -38,28 +44,50 @@ std::optional<SweepResult> Pipeline::finish() noexcept {
   return localize(sweeps_.completed());
 }
 
+void Pipeline::filter_new_points(const drivers::Sweep& sweep) noexcept {
+  const std::int64_t began_ns = monotonic_ns();
+  const auto new_points = sweep.points().subspan(filtered_);
+  if (new_points.empty()) return;
+  if (filtered_ == 0) {
+    // The velocity of the sweep before, as its match has just run.
+    const ndt::Velocity velocity = settings_.deskew ? localizer_.velocity() : ndt::Velocity::Zero();
+    deskew_.begin(sweep.start_utc_ns(), velocity, settings_.sensor_pose);
+  }
+  const auto late_s =
+      static_cast<float>(static_cast<double>(sweep.start_utc_ns() - deskew_.start_utc_ns()) * 1e-9);
+  for (const drivers::Point& point : new_points) grid_.add(deskew_.to_start(point, late_s));
+  filtered_ = sweep.points().size();
+  filter_ns_ += monotonic_ns() - began_ns;
+}
+
+std::span<const Eigen::Vector3f> Pipeline::finish_filter(std::int64_t end_utc_ns) noexcept {
+  const std::int64_t began_ns = monotonic_ns();
+  const std::span<Eigen::Vector3f> points_m = grid_.finish();
+  const Eigen::Isometry3f to_end = deskew_.from_start(end_utc_ns).cast<float>();
+  for (Eigen::Vector3f& point_m : points_m) point_m = to_end * point_m;
+  counters_.points_unfiltered += grid_.dropped_points();
+  grid_.clear();
+  filtered_ = 0;
+  record(Stage::filter, filter_ns_ + monotonic_ns() - began_ns);
+  filter_ns_ = 0;
+  return points_m;
+}
+
 SweepResult Pipeline::localize(const drivers::Sweep& sweep) noexcept {
-  durations_[static_cast<std::size_t>(Stage::decode)].record(decode_ns_);
+  record(Stage::decode, decode_ns_);
   decode_ns_ = 0;
+  filter_new_points(sweep);
+  const auto points_m = finish_filter(sweep.end_utc_ns());
 
   std::int64_t began_ns = monotonic_ns();
-  const ndt::Velocity velocity = settings_.deskew ? localizer_.velocity() : ndt::Velocity::Zero();
-  const ndt::Deskew deskew(velocity, sweep.last_time_s(), settings_.sensor_pose);
-  grid_.clear();
-  for (const drivers::Point& point : sweep.points()) grid_.add(deskew(point));
-  const auto points_m = grid_.finish();
-  record(Stage::filter, began_ns);
-
-  began_ns = monotonic_ns();
   const ndt::Fix fix = localizer_.localize(points_m, sweep.end_utc_ns());
-  record(Stage::match, began_ns);
+  record(Stage::match, monotonic_ns() - began_ns);
 
   began_ns = monotonic_ns();
   publish(fix);
-  record(Stage::publish, began_ns);
+  record(Stage::publish, monotonic_ns() - began_ns);
 
   counters_.points_overflowed += sweep.overflowed();
-  counters_.points_unfiltered += grid_.dropped_points();
   counters_.pairs_dropped += fix.match.pairs_dropped;
   return {.fix = fix,
           .points_filtered = points_m.size(),
@@ -79,8 +107,8 @@ void Pipeline::publish(const ndt::Fix& fix) noexcept {
   if (encoded.saturated) ++counters_.frames_saturated;
 }
 
-void Pipeline::record(Stage stage, std::int64_t began_ns) noexcept {
-  durations_[static_cast<std::size_t>(stage)].record(monotonic_ns() - began_ns);
+void Pipeline::record(Stage stage, std::int64_t duration_ns) noexcept {
+  durations_[static_cast<std::size_t>(stage)].record(duration_ns);
 }
 
 }  // namespace landfix::platform

@@ -1,10 +1,12 @@
-// The main job, assembled: packets in, poses out. decode -> deskew and filter -> match -> publish.
+// The main job, assembled: packets in, poses out. decode -> deskew and filter -> match -> publish. Points are
+// deskewed and filtered packet by packet, so that a sweep's last one leaves little but the match to do.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "drivers/decoder.hpp"
 #include "drivers/sweep.hpp"
 #include "ndt/localizer.hpp"
+#include "ndt/motion.hpp"
 #include "ndt/pose.hpp"
 #include "ndt/voxel_grid.hpp"
 #include "ndt/voxel_map.hpp"
@@ -22,8 +25,9 @@
 
 namespace landfix::platform {
 
-enum class Stage : std::uint8_t { decode, filter, match, publish };
-inline constexpr std::size_t kStageCount = 4;
+/// Of a sweep: all the time spent on its packets, and what was left to do from its last packet to its pose.
+enum class Stage : std::uint8_t { decode, filter, match, publish, last_packet };
+inline constexpr std::size_t kStageCount = 5;
 [[nodiscard]] std::string_view to_string(Stage stage) noexcept;
 
 struct PipelineSettings {
@@ -84,19 +88,24 @@ class Pipeline {
 
  private:
   [[nodiscard]] SweepResult localize(const drivers::Sweep& sweep) noexcept;
+  void filter_new_points(const drivers::Sweep& sweep) noexcept;
+  [[nodiscard]] std::span<const Eigen::Vector3f> finish_filter(std::int64_t end_utc_ns) noexcept;
   void publish(const ndt::Fix& fix) noexcept;
-  void record(Stage stage, std::int64_t began_ns) noexcept;
+  void record(Stage stage, std::int64_t duration_ns) noexcept;
 
   PipelineSettings settings_;
   drivers::AnyDecoder decoder_;
   std::vector<drivers::Point> points_;
   drivers::SweepPair sweeps_;
+  ndt::Deskew deskew_;
   ndt::VoxelGrid grid_;
+  std::size_t filtered_ = 0;  ///< points of the current sweep, its first, that the filter has
   ndt::Localizer localizer_;
   PoseFrameEncoder encoder_;
   FrameSink* bus_;
   PipelineCounters counters_;
   std::int64_t decode_ns_ = 0;  ///< spent on the packets of the current sweep
+  std::int64_t filter_ns_ = 0;
   std::array<LatencyHistogram, kStageCount> durations_{};
 };
 
