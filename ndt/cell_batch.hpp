@@ -21,6 +21,7 @@ inline constexpr float kMostCells = kIndexBias - 1;
 /// Two cells along each axis make a block of eight. Its key: i, j, k of the block, 17 bits each from the top,
 /// then 13 bits that are 0.
 inline constexpr int kBlockBits = 31 - kPlaceBits;
+inline constexpr int kSpareBits = 64 - 3 * kBlockBits;
 [[nodiscard]] constexpr std::uint32_t block_index(std::uint64_t key, int axis) noexcept {
   return static_cast<std::uint32_t>(key >> (64 - (axis + 1) * kBlockBits)) & ((1U << kBlockBits) - 1);
 }

@@ -7,7 +7,7 @@
 namespace landfix::ndt {
 
 struct SpatialKey {
-  std::uint64_t code = 0;   ///< of Morton
+  std::uint64_t code = 0;   ///< of Morton, and below it whatever tells equal ones apart
   std::uint32_t index = 0;  ///< of what is sorted
 };
 

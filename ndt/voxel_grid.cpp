@@ -9,6 +9,11 @@ namespace {
 /// From a slot that is taken to the next: out of its row of neighbours.
 constexpr std::uint32_t kProbeStep = 613;
 
+/// From a block's slot to that of the same block for the next ring.
+constexpr std::uint32_t kRingStep = 0x9E3779B1U;
+/// One less than the key has room for, so that no key is that of kNoRoom.
+constexpr std::uint32_t kMostRings = (1U << (kSpareBits - 1)) - 1;
+
 /// Blocks are read in another order than written: each is fetched while so many before it are read.
 constexpr std::size_t kBlocksAhead = 6;
 
@@ -23,11 +28,12 @@ void VoxelGrid::clear() noexcept {
 }
 
 void VoxelGrid::add(std::span<const Eigen::Vector3f> points_m) noexcept {
-  if (pending_size_ != 0) {
-    const std::size_t room = std::min(kCellBatch - pending_size_, points_m.size());
-    for (const Eigen::Vector3f& point_m : points_m.first(room)) add(point_m);
-    points_m = points_m.subspan(room);
-  }
+  // Point by point up to the next whole batch, and after the last.
+  const std::size_t first = options_.by_ring
+                                ? points_m.size()
+                                : std::min((kCellBatch - pending_size_) % kCellBatch, points_m.size());
+  for (const Eigen::Vector3f& point_m : points_m.first(first)) add(point_m);
+  points_m = points_m.subspan(first);
   for (; points_m.size() >= kCellBatch; points_m = points_m.subspan(kCellBatch)) {
     add_batch(points_m.first<kCellBatch>(), kCellBatch);
   }
@@ -45,17 +51,32 @@ void VoxelGrid::add_batch(std::span<const Eigen::Vector3f, kCellBatch> points_m,
   if (!find_cells(points_m, inverse_leaf_1pm, batch_)) {
     // Seldom: once more, without those that have no cell.
     Points inside;
-    const auto end = std::copy_if(points_m.begin(), points_m.begin() + static_cast<std::ptrdiff_t>(size),
-                                  inside.begin(), [inverse_leaf_1pm](const Eigen::Vector3f& point_m) {
-                                    return (point_m.array().abs() * inverse_leaf_1pm < kMostCells).all();
-                                  });
-    std::fill(end, inside.end(), Eigen::Vector3f::Zero());
-    size = static_cast<std::size_t>(end - inside.begin());
+    inside.fill(Eigen::Vector3f::Zero());
+    std::size_t count = 0;
+    for (std::size_t n = 0; n < size; ++n) {
+      if (!(points_m[n].array().abs() * inverse_leaf_1pm < kMostCells).all()) continue;
+      inside[count] = points_m[n];
+      pending_rings_[count] = pending_rings_[n];
+      ++count;
+    }
+    size = count;
     if (!find_cells(inside, inverse_leaf_1pm, batch_)) return;
   }
-  sum_batch(size);
+  if (options_.by_ring) set_rings(size);
+  options_.with_entropy ? sum_batch<true>(size) : sum_batch<false>(size);
 }
 
+/// The ring goes where a block's key has no bits.
+void VoxelGrid::set_rings(std::size_t size) noexcept {
+  static_assert(kSpareBits == 13);
+  for (std::size_t n = 0; n < size; ++n) {
+    const std::uint32_t ring = pending_rings_[n] & kMostRings;
+    batch_.block[n] |= ring;
+    batch_.hash[n] += ring * kRingStep;
+  }
+}
+
+template <bool kWithMoments>
 void VoxelGrid::sum_batch(std::size_t size) noexcept {
   const std::size_t mask = table_.size() - 1;
   for (std::size_t n = 0; n < size; ++n) {
@@ -66,6 +87,7 @@ void VoxelGrid::sum_batch(std::size_t size) noexcept {
     CellSum& sum = blocks_[block][batch_.cell[n]];
     const CellSum point = batch_.point[n];  // a copy, so that the four are added at once
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += point[i];
+    if constexpr (kWithMoments) add_point(moments_[block][batch_.cell[n]], point);
   }
 }
 
@@ -81,6 +103,7 @@ std::uint32_t VoxelGrid::find_or_open(std::uint64_t key, std::uint32_t hash) noe
   slots_[block] = slot;
   keys_[block] = key;
   blocks_[block] = {};
+  if (options_.with_entropy) moments_[block] = {};
   return block;
 }
 
@@ -89,14 +112,19 @@ std::span<Eigen::Vector3f> VoxelGrid::finish() noexcept {
   const std::span<const std::uint32_t> cells = list_cells();
   std::size_t points = 0;
   for (std::size_t n = 0; n < cells.size(); ++n) {
-    const std::uint32_t block = cells[n] / 8;
-    const std::uint32_t cell = cells[n] % 8;
-    const CellSum& sum = blocks_[block][cell];
-    centroids_[n] = centroid(keys_[block], cell, sum);
-    points += sum[3];
+    const Centroid at = centroid(cells[n]);
+    centroids_[n] = (leaf_m_ * (at.lower + at.place)).cast<float>();
+    points += at.points;
   }
   dropped_points_ = points_ - points;
   return std::span(centroids_).first(cells.size());
+}
+
+void VoxelGrid::entropies(std::span<float> values) const noexcept {
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const Centroid at = centroid(cells_[n]);
+    values[n] = entropy_of(moments_[cells_[n] / 8][cells_[n] % 8], at.place, at.points, leaf_m_);
+  }
 }
 
 std::span<const std::uint32_t> VoxelGrid::list_cells() noexcept {
@@ -129,25 +157,30 @@ std::span<const SpatialKey> VoxelGrid::sort_blocks() noexcept {
   const std::span<SpatialKey> order = std::span(order_).first(size_ - 1);
   for (std::size_t n = 1; n < size_; ++n) {
     const std::uint64_t key = keys_[n];
-    order[n - 1] = {.code = morton_code(block_index(key, 0) - least[0], block_index(key, 1) - least[1],
-                                        block_index(key, 2) - least[2]),
-                    .index = static_cast<std::uint32_t>(n)};
+    const std::uint64_t code = morton_code(block_index(key, 0) - least[0], block_index(key, 1) - least[1],
+                                           block_index(key, 2) - least[2]);
+    const std::uint64_t ring = key & kMostRings;
+    order[n - 1] = {.code = code << kSpareBits | ring, .index = static_cast<std::uint32_t>(n)};
   }
   sort_by_code(order, std::span(order_).last(order.size()));
   return order;
 }
 
-Eigen::Vector3f VoxelGrid::centroid(std::uint64_t key, std::uint32_t cell,
-                                    const CellSum& sum) const noexcept {
+/// `index`: as in cells_.
+VoxelGrid::Centroid VoxelGrid::centroid(std::uint32_t index) const noexcept {
+  const std::uint32_t cell = index % 8;
+  const std::uint64_t key = keys_[index / 8];
+  const CellSum& sum = blocks_[index / 8][cell];
   const std::uint32_t points = sum[3];
   const double to_cells = 1.0 / (static_cast<double>(points) * (1 << kPlaceBits));
-  const auto along = [&](int axis) {
-    const std::uint32_t index = 2 * block_index(key, axis) + (cell >> (2 - axis) & 1U);
-    const std::uint32_t places = sum[static_cast<std::size_t>(axis)] - points * (index << kPlaceBits);
-    const double cells = static_cast<std::int32_t>(index) - kIndexBias + places * to_cells;
-    return static_cast<float>(cells * leaf_m_);
-  };
-  return {along(0), along(1), along(2)};
+  Centroid at{.lower = Eigen::Vector3d::Zero(), .place = Eigen::Vector3d::Zero(), .points = points};
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::uint32_t along = 2 * block_index(key, axis) + (cell >> (2 - axis) & 1U);
+    const std::uint32_t places = sum[static_cast<std::size_t>(axis)] - points * (along << kPlaceBits);
+    at.lower[axis] = static_cast<std::int32_t>(along) - kIndexBias;
+    at.place[axis] = places * to_cells;
+  }
+  return at;
 }
 
 }  // namespace landfix::ndt

@@ -10,9 +10,15 @@
 #include <Eigen/Core>
 
 #include "ndt/cell_batch.hpp"
+#include "ndt/cell_moments.hpp"
 #include "ndt/spatial_sort.hpp"
 
 namespace landfix::ndt {
+
+struct GridOptions {
+  bool by_ring = false;       ///< a cell's points of each ring have a centroid of their own
+  bool with_entropy = false;  ///< `entropies` are wanted; takes three times the memory
+};
 
 /// Takes points as they are decoded. It sums integers, so that the centroids are the same to the bit in
 /// whatever order and portions the points come. Allocates in its constructor only.
@@ -20,18 +26,23 @@ class VoxelGrid {
  public:
   /// `leaf_m`: edge of a cell, > 0. `capacity`: centroids that it can hold; points of cells beyond are left
   /// out.
-  VoxelGrid(double leaf_m, std::size_t capacity);
+  VoxelGrid(double leaf_m, std::size_t capacity, const GridOptions& options = {});
 
   void clear() noexcept;
   /// Points that are not finite, or kMostCells away, are left out.
-  void add(const Eigen::Vector3f& point_m) noexcept {
-    pending_[pending_size_++] = point_m;
+  void add(const Eigen::Vector3f& point_m, std::uint16_t ring = 0) noexcept {
+    pending_[pending_size_] = point_m;
+    pending_rings_[pending_size_] = ring;
+    ++pending_size_;
     if (pending_size_ == kCellBatch) add_pending();
   }
   void add(std::span<const Eigen::Vector3f> points_m) noexcept;
   /// The centroids, neighbours in space near each other in memory. The caller may move them; they
   /// are valid until the next `finish`.
   [[nodiscard]] std::span<Eigen::Vector3f> finish() noexcept;
+
+  /// Of each centroid that `finish` has given, in its order and before `clear`: see entropy_of.
+  void entropies(std::span<float> values) const noexcept;
 
   /// Points since `clear` that are in no centroid; known once `finish` has run.
   [[nodiscard]] std::size_t dropped_points() const noexcept { return dropped_points_; }
@@ -41,28 +52,40 @@ class VoxelGrid {
 
  private:
   using Points = std::array<Eigen::Vector3f, kCellBatch>;
+  using Rings = std::array<std::uint16_t, kCellBatch>;
   using Block = std::array<CellSum, 8>;
+  /// The mean of a cell's points, in units of the leaf.
+  struct Centroid {
+    Eigen::Vector3d lower;  ///< corner of the cell
+    Eigen::Vector3d place;  ///< from there
+    std::uint32_t points;
+  };
+  using BlockMoments = std::array<CellMoments, 8>;
   static constexpr std::uint32_t kNoRoom = 0;  ///< index of the block for points that find none
 
   void add_pending() noexcept;
   void add_batch(std::span<const Eigen::Vector3f, kCellBatch> points_m, std::size_t size) noexcept;
+  void set_rings(std::size_t size) noexcept;
+  template <bool kWithMoments>
   void sum_batch(std::size_t size) noexcept;
   [[nodiscard]] std::uint32_t find_or_open(std::uint64_t key, std::uint32_t hash) noexcept;
   [[nodiscard]] std::span<const std::uint32_t> list_cells() noexcept;
   [[nodiscard]] std::span<const SpatialKey> sort_blocks() noexcept;
-  [[nodiscard]] Eigen::Vector3f centroid(std::uint64_t key, std::uint32_t cell,
-                                         const CellSum& sum) const noexcept;
+  [[nodiscard]] Centroid centroid(std::uint32_t index) const noexcept;
 
   double leaf_m_;
+  GridOptions options_;
   std::size_t size_ = 1;  ///< blocks, kNoRoom among them
   std::size_t points_ = 0;
   std::size_t dropped_points_ = 0;
   std::size_t pending_size_ = 0;
   Points pending_;
+  Rings pending_rings_{};
   CellBatch batch_;
   // Blocks in the order of their first points.
   std::vector<std::uint64_t> keys_;
   std::vector<Block> blocks_;
+  std::vector<BlockMoments> moments_;
   std::vector<std::uint32_t> slots_;
   std::vector<std::uint32_t> table_;  ///< of 2^n slots, by hash: indices of blocks; kNoRoom: free
   std::vector<SpatialKey> order_;     ///< and as much scratch

@@ -6,10 +6,12 @@
 
 namespace landfix::ndt {
 
-VoxelGrid::VoxelGrid(double leaf_m, std::size_t capacity)
+VoxelGrid::VoxelGrid(double leaf_m, std::size_t capacity, const GridOptions& options)
     : leaf_m_(leaf_m),
+      options_(options),
       keys_(capacity + 1),
       blocks_(capacity + 1),
+      moments_(options.with_entropy ? capacity + 1 : 0),
       slots_(capacity + 1),
       // Where slots are rarely taken already a block is found at the first look.
       table_(std::bit_ceil(4 * std::max<std::size_t>(capacity, 4))),

@@ -89,8 +89,14 @@ void read_initial_pose(TomlSection section, InitialPoseSettings& initial_pose) {
   section.finish();
 }
 
-void read_filter(TomlSection section, FilterSettings& filter) {
+bool is_filter(std::string_view name) { return ndt::find_filter(name).has_value(); }
+
+void read_filter(TomlSection section, ndt::FilterSettings& filter) {
+  std::string kind(ndt::kFilterNames[static_cast<std::size_t>(filter.kind)]);
+  section.read("kind", kind, is_filter, fmt::format("one of {}", fmt::join(ndt::kFilterNames, ", ")));
+  filter.kind = ndt::find_filter(kind).value();
   section.read("leaf_m", filter.leaf_m, {0.05, 20.0});
+  section.read("entropy_share", filter.entropy_share, {0.01, 1.0});
   section.finish();
 }
 

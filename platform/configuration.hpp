@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "ndt/pose.hpp"
+#include "ndt/scan_filter.hpp"
 
 namespace landfix::platform {
 
@@ -34,10 +35,6 @@ struct InitialPoseSettings {
   std::optional<ndt::Pose> pose;  ///< map <- vehicle
 };
 
-struct FilterSettings {
-  double leaf_m = 2.0;  ///< edge of the voxels that thin out the scan
-};
-
 struct MatcherSettings {
   double resolution_m = 1.0;  ///< the map's
   int max_iterations = 50;
@@ -59,7 +56,7 @@ struct Configuration {
   VehicleSettings vehicle{};
   MapSettings map{};
   InitialPoseSettings initial_pose{};
-  FilterSettings filter{};
+  ndt::FilterSettings filter{};
   MatcherSettings matcher{};
   CanSettings can{};
   MetricsSettings metrics{};

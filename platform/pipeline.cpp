@@ -55,18 +55,18 @@ void Pipeline::filter_new_points(const drivers::Sweep& sweep) noexcept {
   }
   const auto late_s =
       static_cast<float>(static_cast<double>(sweep.start_utc_ns() - deskew_.start_utc_ns()) * 1e-9);
-  for (const drivers::Point& point : new_points) grid_.add(deskew_.to_start(point, late_s));
+  for (const drivers::Point& point : new_points) filter_.add(deskew_.to_start(point, late_s), point.ring);
   filtered_ = sweep.points().size();
   filter_ns_ += monotonic_ns() - began_ns;
 }
 
 std::span<const Eigen::Vector3f> Pipeline::finish_filter(std::int64_t end_utc_ns) noexcept {
   const std::int64_t began_ns = monotonic_ns();
-  const std::span<Eigen::Vector3f> points_m = grid_.finish();
+  const std::span<Eigen::Vector3f> points_m = filter_.finish();
   const Eigen::Isometry3f to_end = deskew_.from_start(end_utc_ns).cast<float>();
   for (Eigen::Vector3f& point_m : points_m) point_m = to_end * point_m;
-  counters_.points_unfiltered += grid_.dropped_points();
-  grid_.clear();
+  counters_.points_unfiltered += filter_.dropped_points();
+  filter_.clear();
   filtered_ = 0;
   record(Stage::filter, filter_ns_ + monotonic_ns() - began_ns);
   filter_ns_ = 0;

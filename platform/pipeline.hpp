@@ -16,7 +16,7 @@
 #include "ndt/localizer.hpp"
 #include "ndt/motion.hpp"
 #include "ndt/pose.hpp"
-#include "ndt/voxel_grid.hpp"
+#include "ndt/scan_filter.hpp"
 #include "ndt/voxel_map.hpp"
 #include "platform/can_frame.hpp"
 #include "platform/latency_histogram.hpp"
@@ -36,7 +36,7 @@ struct PipelineSettings {
   std::uint32_t sensor_address = 0;               ///< IPv4, host byte order; 0: whoever sends
   std::size_t points_per_sweep = 0;               ///< room for a sweep
   ndt::Pose sensor_pose = ndt::Pose::Identity();  ///< vehicle <- sensor
-  double leaf_m = 2.0;
+  ndt::FilterSettings filter;
   std::size_t filter_capacity = ndt::Matcher::kMaxPoints;  ///< points after the filter
   bool deskew = true;
   ndt::LocalizerSettings localizer{};
@@ -98,7 +98,7 @@ class Pipeline {
   std::vector<drivers::Point> points_;
   drivers::SweepPair sweeps_;
   ndt::Deskew deskew_;
-  ndt::VoxelGrid grid_;
+  ndt::ScanFilter filter_;
   std::size_t filtered_ = 0;  ///< points of the current sweep, its first, that the filter has
   ndt::Localizer localizer_;
   PoseFrameEncoder encoder_;

@@ -9,7 +9,7 @@ Pipeline::Pipeline(const PipelineSettings& settings, const drivers::AnyDecoder& 
       decoder_(decoder),
       points_(2 * settings.points_per_sweep),
       sweeps_(points_),
-      grid_(settings.leaf_m, settings.filter_capacity),
+      filter_(settings.filter, settings.filter_capacity),
       localizer_(map, settings.localizer, settings.initial_pose),
       encoder_(settings.can_base_id),
       bus_(bus) {}

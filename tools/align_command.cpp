@@ -11,7 +11,7 @@
 #include "ndt/fitness.hpp"
 #include "ndt/localizer.hpp"
 #include "ndt/matcher.hpp"
-#include "ndt/voxel_grid.hpp"
+#include "ndt/scan_filter.hpp"
 #include "tools/command.hpp"
 #include "tools/input_files.hpp"
 #include "tools/landfix_commands.hpp"
@@ -23,7 +23,7 @@ struct Arguments {
   std::string map;
   std::string scan;
   std::optional<ndt::Pose> guess;
-  double leaf_m = 2.0;
+  ndt::FilterSettings filter;
   RangeLimits limits;
   bool json = false;
 };
@@ -90,9 +90,10 @@ void align(const Arguments& arguments) {
         fmt::format("{}: no point between {} m and {} m of the origin; see --min-range, --max-range",
                     arguments.scan, arguments.limits.min_m, arguments.limits.max_m));
   }
-  ndt::VoxelGrid grid(arguments.leaf_m, scan.size());
-  for (const Eigen::Vector3f& point_m : scan) grid.add(point_m);
-  const auto points_m = grid.finish();
+  const auto rings = elevation_steps(scan);
+  ndt::ScanFilter filter(arguments.filter, scan.size());
+  for (std::size_t i = 0; i < scan.size(); ++i) filter.add(scan[i], rings[i]);
+  const auto points_m = filter.finish();
 
   ndt::Matcher matcher({}, points_m.size());
   const auto began = std::chrono::steady_clock::now();
@@ -114,7 +115,7 @@ void add_align_command(CLI::App& app) {
       ->type_name("SCAN.pcd");
   add_pose_option(command, "--guess", arguments->guess, "pose to start from, map <- vehicle [m, deg]")
       ->required();
-  add_leaf_option(command, arguments->leaf_m);
+  add_filter_options(command, arguments->filter);
   add_range_options(command, arguments->limits);
   add_json_option(command, arguments->json);
   command.callback([arguments] { align(*arguments); });

@@ -178,7 +178,7 @@ void add_benchmark_command(CLI::App& app) {
                 "track the scans in order, from the first one's true pose, instead of starting around each")
       ->excludes(up_to)
       ->excludes(exact);
-  add_leaf_option(command, settings.leaf_m);
+  add_filter_options(command, settings.filter);
   add_range_options(command, settings.limits);
   command.add_option("--seed", settings.seed, "of the starts")->type_name("N")->capture_default_str();
   add_json_option(command, arguments->json);

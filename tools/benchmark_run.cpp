@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "ndt/motion.hpp"
-#include "ndt/voxel_grid.hpp"
+#include "ndt/scan_filter.hpp"
 #include "tools/command.hpp"
 
 namespace landfix::tools {
@@ -76,21 +76,22 @@ BenchmarkResult run_benchmark(const ndt::VoxelMap& map, std::span<const std::fil
                               std::span<const ndt::StampedPose> truth, const BenchmarkSettings& settings) {
   constexpr std::size_t kGridCapacity = 1 << 18;
   BenchmarkResult result;
-  ndt::VoxelGrid grid(settings.leaf_m, kGridCapacity);
+  ndt::ScanFilter filter(settings.filter, kGridCapacity);
   ndt::Matcher matcher({}, kGridCapacity);
   Perturbation perturbation(settings);
   std::vector<ndt::StampedPose> track;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     show_progress(fmt::format("scan {} of {}", i + 1, scans.size()));
     const auto scan = load_scan(scans[i], settings.limits);
+    const auto rings = elevation_steps(scan);
     const double filter_began_ms = thread_cpu_ms();
-    grid.clear();
-    for (const Eigen::Vector3f& point_m : scan) grid.add(point_m);
-    const auto points_m = grid.finish();
+    filter.clear();
+    for (std::size_t n = 0; n < scan.size(); ++n) filter.add(scan[n], rings[n]);
+    const auto points_m = filter.finish();
     result.filter_cpu_ms.push_back(thread_cpu_ms() - filter_began_ms);
-    if (grid.dropped_points() != 0) {
+    if (filter.dropped_points() != 0) {
       throw std::runtime_error(fmt::format("{}: more than {} cells of {} m; choose a larger --leaf",
-                                           scans[i].string(), kGridCapacity, settings.leaf_m));
+                                           scans[i].string(), kGridCapacity, settings.filter.leaf_m));
     }
     result.points_mean += static_cast<double>(points_m.size()) / static_cast<double>(scans.size());
 

@@ -22,7 +22,7 @@ struct BenchmarkSettings {
   double perturb_rad = 0.0349;   ///< angle of its rotation from the truth's, about any axis
   bool perturb_exactly = false;  ///< the full amounts, not up to them
   bool in_sequence = false;      ///< one start a scan, where the two poses before lead to
-  double leaf_m = 2.0;
+  ndt::FilterSettings filter;
   RangeLimits limits;
   std::uint64_t seed = 1;
 };

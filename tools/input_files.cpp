@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -51,11 +52,32 @@ void add_range_options(CLI::App& command, RangeLimits& limits) {
       ->capture_default_str();
 }
 
-void add_leaf_option(CLI::App& command, double& leaf_m) {
-  command.add_option("--leaf", leaf_m, "edge of a cell of the scan's voxel filter [m]")
+void add_filter_options(CLI::App& command, ndt::FilterSettings& filter) {
+  std::map<std::string, ndt::FilterKind> kinds;
+  for (const std::string_view name : ndt::kFilterNames) kinds.emplace(name, ndt::find_filter(name).value());
+  command.add_option("--filter", filter.kind, "what is kept of the scan: voxel, ring or entropy")
+      ->transform(CLI::CheckedTransformer(kinds).description(""))
+      ->type_name("KIND")
+      ->default_str("voxel");
+  command.add_option("--entropy-share", filter.entropy_share, "share of the cells that entropy keeps")
+      ->check(CLI::Range(0.01, 1.0).description(""))
+      ->type_name("SHARE")
+      ->capture_default_str();
+  command.add_option("--leaf", filter.leaf_m, "edge of a cell of the scan's filter [m]")
       ->check(CLI::Range(0.01, 100.0).description(""))
       ->type_name("M")
       ->capture_default_str();
+}
+
+std::vector<std::uint16_t> elevation_steps(std::span<const Eigen::Vector3f> points_m) {
+  std::vector<std::uint16_t> steps;
+  steps.reserve(points_m.size());
+  for (const Eigen::Vector3f& p : points_m) {
+    const double elevation_deg =
+        static_cast<double>(std::atan2(p.z(), p.head<2>().norm())) / kRadians_per_deg;
+    steps.push_back(static_cast<std::uint16_t>((elevation_deg + 90.0) * 3.0));
+  }
+  return steps;
 }
 
 CLI::Option* add_pose_option(CLI::App& command, const std::string& name, std::optional<ndt::Pose>& pose,

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@
 
 #include "ndt/map_image.hpp"
 #include "ndt/pose.hpp"
+#include "ndt/scan_filter.hpp"
 
 namespace landfix::tools {
 
@@ -41,8 +44,12 @@ struct RangeLimits {
 /// --min-range and --max-range.
 void add_range_options(CLI::App& command, RangeLimits& limits);
 
-/// --leaf, the edge of the input filter's cells.
-void add_leaf_option(CLI::App& command, double& leaf_m);
+/// --filter, --entropy-share and --leaf.
+void add_filter_options(CLI::App& command, ndt::FilterSettings& filter);
+
+/// What stands for the rings of a cloud, which may have none, or another origin than the sensor's: elevations
+/// from the origin, in steps of 1/3 deg.
+[[nodiscard]] std::vector<std::uint16_t> elevation_steps(std::span<const Eigen::Vector3f> points_m);
 
 /// An option that takes X,Y,Z,ROLL_DEG,PITCH_DEG,YAW_DEG.
 CLI::Option* add_pose_option(CLI::App& command, const std::string& name, std::optional<ndt::Pose>& pose,

@@ -40,7 +40,7 @@ namespace {
       .sensor_address = ipv4_of(configuration.sensor.address),
       .points_per_sweep = model.max_points_per_sweep(),
       .sensor_pose = configuration.vehicle.sensor_pose,
-      .leaf_m = configuration.filter.leaf_m,
+      .filter = configuration.filter,
       .deskew = input.deskew,
       .initial_pose = *initial_pose,
       .can_base_id = configuration.can.base_id};

@@ -53,7 +53,9 @@ TEST(Configuration, TheExampleSaysTheDefaults) {
   EXPECT_EQ(example.sensor.max_range_m, defaults.sensor.max_range_m);
   EXPECT_EQ(example.vehicle.sensor_pose.matrix(), defaults.vehicle.sensor_pose.matrix());
   EXPECT_FALSE(example.initial_pose.pose);
+  EXPECT_EQ(example.filter.kind, defaults.filter.kind);
   EXPECT_EQ(example.filter.leaf_m, defaults.filter.leaf_m);
+  EXPECT_EQ(example.filter.entropy_share, defaults.filter.entropy_share);
   EXPECT_EQ(example.matcher.resolution_m, defaults.matcher.resolution_m);
   EXPECT_EQ(example.matcher.max_iterations, defaults.matcher.max_iterations);
   EXPECT_EQ(example.can.interface, defaults.can.interface);
@@ -96,7 +98,9 @@ file = "/maps/town.ndt"
 [initial_pose]
 pose = [10, 20, 0, 0, 0, -90]
 [filter]
+kind = "ring"
 leaf_m = 1.0
+entropy_share = 0.25
 [matcher]
 resolution_m = 2.0
 max_iterations = 30
@@ -120,7 +124,9 @@ address = "unix:/run/landfix/metrics"
   EXPECT_NEAR(angles.yaw_rad, M_PI / 2, 1e-12);
   EXPECT_EQ(read.map.file, "/maps/town.ndt");
   EXPECT_EQ(read.initial_pose.pose->translation(), Eigen::Vector3d(10, 20, 0));
+  EXPECT_EQ(read.filter.kind, ndt::FilterKind::ring);
   EXPECT_EQ(read.filter.leaf_m, 1.0);
+  EXPECT_EQ(read.filter.entropy_share, 0.25);
   EXPECT_EQ(read.matcher.resolution_m, 2.0);
   EXPECT_EQ(read.matcher.max_iterations, 30);
   EXPECT_EQ(read.can.interface, "vcan1");
@@ -132,7 +138,8 @@ address = "unix:/run/landfix/metrics"
 TEST(Configuration, ErrorsSayWhereAndWhatIsAllowed) {
   EXPECT_EQ(error_of("filter", "leaf_m = -1"),
             "a.toml:4:10: filter.leaf_m = -1; expected a number from 0.05 to 20");
-  EXPECT_EQ(error_of("filter", "leaf = 1"), "a.toml:4:1: unknown key leaf; [filter] has leaf_m");
+  EXPECT_EQ(error_of("filter", "leaf = 1"),
+            "a.toml:4:1: unknown key leaf; [filter] has kind, leaf_m, entropy_share");
   EXPECT_THAT(error_of(kSensor + "[filtre]"),
               StartsWith("a.toml:3:2: unknown section or key filtre; there are"));
   EXPECT_THAT(error_of("[sensor]\nmodel = \"vlp61\""),
@@ -158,6 +165,9 @@ TEST(Configuration, BadValuesAreRefused) {
       {"filter", "leaf_m = nan"},
       {"filter", "leaf_m = true"},
       {"filter", "leaf_m = 0"},
+      {"filter", "kind = \"median\""},
+      {"filter", "kind = 1"},
+      {"filter", "entropy_share = 0"},
       {"matcher", "max_iterations = 0"},
       {"matcher", "max_iterations = 50.0"},
       {"matcher", "resolution_m = 0.0"},
