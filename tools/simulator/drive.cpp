@@ -27,7 +27,7 @@ Drive::Drive(Route route, std::uint64_t seed, std::string_view sensor)
       route_(std::move(route)),
       seed_(seed),
       path_(route_),
-      ground_(path_, route_.road, plan_side_streets(route_, path_, seed), seed),
+      ground_(path_, route_, plan_side_streets(route_, path_, seed), seed),
       world_(build_world(route_, ground_, seed)),
       vehicle_(route_, ground_),
       scene_(make_scene(world_)) {}

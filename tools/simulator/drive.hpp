@@ -31,6 +31,8 @@ class Drive {
   [[nodiscard]] std::uint64_t seed() const noexcept { return seed_; }
   [[nodiscard]] const Ground& ground() const noexcept { return ground_; }
   [[nodiscard]] const World& world() const noexcept { return world_; }
+  /// The standing world, as light meets it.
+  [[nodiscard]] const Scene& scene() const noexcept { return scene_; }
   [[nodiscard]] const VehicleMotion& vehicle() const noexcept { return vehicle_; }
   [[nodiscard]] const LidarModel& lidar() const noexcept { return *lidar_; }
 

@@ -12,13 +12,10 @@
 namespace landfix::tools::simulator {
 namespace {
 
-constexpr double kCrossFall = 0.02;
-constexpr double kPavementFall = 0.015;
-constexpr double kKerb_m = 0.12;
+constexpr double kPavementFall = 0.75;  // of the road's
 constexpr double kLoweredKerb_m = 0.02;
 constexpr double kVergeBlend_m = 4.5;    // from the pavement's level to the land's
 constexpr double kVergeOverlap_m = 1.5;  // where road sheet and land sheet lie on each other
-constexpr double kLandReach_m = 70.0;
 constexpr double kLandCell_m = 1.0;
 constexpr double kCoarseSpacing_m = 2.0;
 constexpr double kWheelbase_m = 2.7;
@@ -52,10 +49,10 @@ double smooth_step(double u) {
 
 }  // namespace
 
-Ground::Ground(const Path& path, const RoadProfile& road, std::vector<SideStreet> side_streets,
-               std::uint64_t seed)
+Ground::Ground(const Path& path, const Route& route, std::vector<SideStreet> side_streets, std::uint64_t seed)
     : path_(path),
-      road_(road),
+      road_(route.road),
+      land_profile_(route.land),
       side_streets_(std::move(side_streets)),
       phase_rad_(2.0 * std::numbers::pi * to_unit(mix_bits(seed))) {
   for (double s = path.first_station_m(); s <= path.last_station_m(); s += kCoarseSpacing_m) {
@@ -76,11 +73,12 @@ bool Ground::in_side_street(double station_m, bool left, double margin_m) const 
 
 double Ground::kerb_m(double station_m, bool left) const noexcept {
   constexpr double kRamp_m = 1.5;
-  double kerb_m = kKerb_m;
+  const double lowered_m = std::min(kLoweredKerb_m, road_.kerb_m);
+  double kerb_m = road_.kerb_m;
   for (const SideStreet& street : side_streets_) {
     if (street.left != left) continue;
     const double beyond_m = std::abs(street.station_m - station_m) - 0.5 * street.width_m;
-    kerb_m = std::min(kerb_m, kLoweredKerb_m + (kKerb_m - kLoweredKerb_m) * smooth_step(beyond_m / kRamp_m));
+    kerb_m = std::min(kerb_m, lowered_m + (road_.kerb_m - lowered_m) * smooth_step(beyond_m / kRamp_m));
   }
   return kerb_m;
 }
@@ -89,13 +87,14 @@ double Ground::kerb_m(double station_m, bool left) const noexcept {
 double Ground::profile_m(double station_m, double across_m) const noexcept {
   const double half_m = road_.half_width_m();
   const double away_m = std::abs(across_m);
-  if (away_m <= half_m) return -kCrossFall * away_m;
+  if (away_m <= half_m) return -road_.cross_fall * away_m;
   const double on_pavement_m = std::min(away_m - half_m, road_.pavement_width_m);
-  return -kCrossFall * half_m + kerb_m(station_m, across_m > 0.0) + kPavementFall * on_pavement_m;
+  return -road_.cross_fall * half_m + kerb_m(station_m, across_m > 0.0) +
+         kPavementFall * road_.cross_fall * on_pavement_m;
 }
 
 double Ground::road_height_m(const PathPoint& point, double station_m, double across_m) const noexcept {
-  const double under_vehicle_m = -kCrossFall * std::abs(road_.centre_offset_m());
+  const double under_vehicle_m = -road_.cross_fall * std::abs(road_.centre_offset_m());
   return point.position_m.z() + profile_m(station_m, across_m) - under_vehicle_m +
          unevenness_m(kRoadWaves, station_m, across_m, phase_rad_);
 }
@@ -151,8 +150,8 @@ Eigen::Vector2d Ground::land_node_m(std::size_t column, std::size_t row) const n
 void Ground::survey_land() {
   Eigen::AlignedBox2d box;
   for (const PathPoint& point : coarse_) box.extend(Eigen::Vector2d(point.position_m.head<2>()));
-  land_.origin_m = box.min().array() - kLandReach_m;
-  const Eigen::Vector2d size_m = box.sizes().array() + 2.0 * kLandReach_m;
+  land_.origin_m = box.min().array() - land_profile_.reach_m;
+  const Eigen::Vector2d size_m = box.sizes().array() + 2.0 * land_profile_.reach_m;
   land_.columns = static_cast<std::size_t>(size_m.x() / kLandCell_m) + 2;
   land_.rows = static_cast<std::size_t>(size_m.y() / kLandCell_m) + 2;
   land_.height_m.assign(land_.columns * land_.rows, 0.0F);
@@ -173,9 +172,10 @@ void Ground::survey_land() {
         nearest_m2 = std::min(nearest_m2, distance_m2);
       }
       const std::size_t node = row * land_.columns + column;
-      land_.height_m[node] =
-          static_cast<float>(height_m / weights + unevenness_m(kLandWaves, xy_m.x(), xy_m.y(), phase_rad_));
-      if (nearest_m2 < kLandReach_m * kLandReach_m) {
+      land_.height_m[node] = static_cast<float>(height_m / weights +
+                                                land_profile_.roughness *
+                                                    unevenness_m(kLandWaves, xy_m.x(), xy_m.y(), phase_rad_));
+      if (nearest_m2 < land_profile_.reach_m * land_profile_.reach_m) {
         const double distance_m = distance_to_road_m(xy_m);
         land_.distance_m[node] = static_cast<float>(
             beyond_the_ends(xy_m) ? std::max(distance_m, corridor_half_width_m()) : distance_m);

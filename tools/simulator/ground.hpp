@@ -29,7 +29,7 @@ struct RoadPosition {
 class Ground {
  public:
   /// `path` must outlive the ground.
-  Ground(const Path& path, const RoadProfile& road, std::vector<SideStreet> side_streets, std::uint64_t seed);
+  Ground(const Path& path, const Route& route, std::vector<SideStreet> side_streets, std::uint64_t seed);
 
   [[nodiscard]] const Path& path() const noexcept { return path_; }
   [[nodiscard]] const RoadProfile& road() const noexcept { return road_; }
@@ -77,6 +77,7 @@ class Ground {
 
   const Path& path_;
   RoadProfile road_;
+  LandProfile land_profile_;
   std::vector<SideStreet> side_streets_;
   double phase_rad_;  ///< of the unevenness, so that each seed has its own
   std::vector<PathPoint> coarse_;

@@ -36,7 +36,7 @@ void Ground::add_road(Mesh& mesh) const {
   section.to(half_m, kColumnSpacing_m, Surface::asphalt);
   section.to(half_m + kKerbBatter_m, kColumnSpacing_m, Surface::concrete);
   section.to(half_m + road_.pavement_width_m, kColumnSpacing_m, Surface::concrete);
-  section.to(corridor_half_width_m(), kColumnSpacing_m, Surface::grass);
+  if (land_profile_.reach_m > 0.0) section.to(corridor_half_width_m(), kColumnSpacing_m, Surface::grass);
 
   std::vector<double> offsets_m;
   offsets_m.reserve(2 * section.away_m.size());
@@ -82,7 +82,7 @@ void Ground::add_land(Mesh& mesh) const {
 Mesh Ground::mesh() const {
   Mesh mesh;
   add_road(mesh);
-  add_land(mesh);
+  if (land_profile_.reach_m > 0.0) add_land(mesh);
   return mesh;
 }
 

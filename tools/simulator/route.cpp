@@ -4,8 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <set>
-#include <span>
+#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -14,97 +13,14 @@
 
 #include "platform/atomic_file.hpp"
 #include "tools/simulator/embedded_routes.hpp"
+#include "tools/simulator/table_reader.hpp"
 
 namespace landfix::tools::simulator {
 namespace {
 
 constexpr double kShortestDrive_m = 20.0;
+constexpr double kClosestNiches_m = 10.0;
 constexpr double kLongestRoute_m = 5'000.0;  // the work of surveying the land around grows with its cube
-
-struct Range {
-  double low;
-  double high;
-};
-
-/// Reads the keys of one table; what nobody asked for is an error.
-class TableReader {
- public:
-  TableReader(const toml::table& table, std::string file) : table_(table), file_(std::move(file)) {}
-
-  [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
-
-  [[nodiscard]] double number(std::string_view key, double fallback, Range range) {
-    const toml::node* const node = find(key);
-    if (node == nullptr) return fallback;
-    const auto value = node->value<double>();
-    if (!value || !(*value >= range.low && *value <= range.high)) {
-      fail(*node, fmt::format("{} must be a number from {} to {}", key, range.low, range.high));
-    }
-    return *value;
-  }
-
-  [[nodiscard]] double number(std::string_view key, Range range) {
-    require(key);
-    return number(key, 0.0, range);
-  }
-
-  [[nodiscard]] std::int64_t integer(std::string_view key, std::int64_t fallback, std::int64_t low,
-                                     std::int64_t high) {
-    const toml::node* const node = find(key);
-    if (node == nullptr) return fallback;
-    if (!node->is_integer() || node->ref<std::int64_t>() < low || node->ref<std::int64_t>() > high) {
-      fail(*node, fmt::format("{} must be a whole number from {} to {}", key, low, high));
-    }
-    return node->ref<std::int64_t>();
-  }
-
-  [[nodiscard]] TableReader table(std::string_view key) {
-    require(key);
-    const toml::node* const node = find(key);
-    if (!node->is_table()) fail(*node, fmt::format("{} must be a table", key));
-    return {*node->as_table(), file_};
-  }
-
-  [[nodiscard]] std::vector<TableReader> tables(std::string_view key) {
-    require(key);
-    const toml::node* const node = find(key);
-    if (!node->is_array_of_tables()) fail(*node, fmt::format("write {0} as [[{0}]] tables", key));
-    std::vector<TableReader> readers;
-    for (const toml::node& entry : *node->as_array()) readers.emplace_back(*entry.as_table(), file_);
-    return readers;
-  }
-
-  void refuse_unknown_keys() const {
-    for (const auto& [key, node] : table_) {
-      if (!known_.contains(std::string(key.str()))) {
-        fail(key.source(),
-             fmt::format("unknown key '{}'; known here: {}", key.str(), fmt::join(known_, ", ")));
-      }
-    }
-  }
-
-  [[noreturn]] void fail(const std::string& message) const { fail(table_.source(), message); }
-
- private:
-  [[nodiscard]] const toml::node* find(std::string_view key) {
-    known_.emplace(key);
-    return table_.get(key);
-  }
-  void require(std::string_view key) const {
-    if (!has(key)) fail(fmt::format("'{}' is missing here", key));
-  }
-  [[noreturn]] void fail(const toml::node& node, const std::string& message) const {
-    fail(node.source(), message);
-  }
-  [[noreturn]] void fail(const toml::source_region& where, const std::string& message) const {
-    throw std::runtime_error(
-        fmt::format("{}:{}:{}: {}", file_, where.begin.line, where.begin.column, message));
-  }
-
-  const toml::table& table_;
-  std::string file_;
-  std::set<std::string> known_;
-};
 
 RoadProfile read_road(TableReader reader) {
   RoadProfile road;
@@ -112,6 +28,8 @@ RoadProfile read_road(TableReader reader) {
   road.lane_width_m = reader.number("lane_width_m", road.lane_width_m, {2.0, 6.0});
   road.parking_width_m = reader.number("parking_width_m", road.parking_width_m, {0.0, 4.0});
   road.pavement_width_m = reader.number("pavement_width_m", road.pavement_width_m, {0.5, 8.0});
+  road.kerb_m = reader.number("kerb_m", road.kerb_m, {0.0, 0.3});
+  road.cross_fall = reader.number("cross_fall", road.cross_fall, {0.0, 0.08});
   reader.refuse_unknown_keys();
   if (road.lanes > 1 && road.lanes % 2 != 0) reader.fail("lanes must be 1 or even");
   return road;
@@ -134,6 +52,35 @@ Scenery read_scenery(TableReader reader) {
   scenery.building_height_m = reader.number("building_height_m", scenery.building_height_m, {3.0, 40.0});
   reader.refuse_unknown_keys();
   return scenery;
+}
+
+LandProfile read_land(TableReader reader) {
+  LandProfile land;
+  land.reach_m = reader.number("reach_m", land.reach_m, {0.0, 300.0});
+  land.roughness = reader.number("roughness", land.roughness, {0.0, 3.0});
+  reader.refuse_unknown_keys();
+  return land;
+}
+
+SurveyPlan read_survey(TableReader reader) {
+  SurveyPlan plan;
+  plan.reach_m = reader.number("reach_m", plan.reach_m, {10.0, 300.0});
+  plan.spacing_m = reader.number("spacing_m", plan.spacing_m, {0.03, 1.0});
+  plan.coarsening = reader.number("coarsening", plan.coarsening, {0.0, 0.1});
+  reader.refuse_unknown_keys();
+  return plan;
+}
+
+Tunnel read_tunnel(TableReader reader) {
+  Tunnel tunnel;
+  tunnel.wall_height_m = reader.number("wall_height_m", tunnel.wall_height_m, {0.5, 10.0});
+  tunnel.niche_spacing_m = reader.number("niche_spacing_m", tunnel.niche_spacing_m, {0.0, kLongestRoute_m});
+  if (tunnel.niche_spacing_m > 0.0 && tunnel.niche_spacing_m < kClosestNiches_m) {
+    reader.fail("niche_spacing_m",
+                fmt::format("niche_spacing_m must be 0 (none) or at least {} m", kClosestNiches_m));
+  }
+  reader.refuse_unknown_keys();
+  return tunnel;
 }
 
 RouteSegment read_segment(TableReader reader, double sharpest_1pm) {
@@ -185,6 +132,9 @@ Route parse_route(std::string_view text, const std::string& file) {
   route.heading_deg = reader.number("heading_deg", 0.0, {-360.0, 360.0});
   route.road = read_road(reader.table("road"));
   route.scenery = read_scenery(reader.table("scenery"));
+  if (auto part = reader.optional_table("land")) route.land = read_land(std::move(*part));
+  if (auto part = reader.optional_table("survey")) route.survey = read_survey(std::move(*part));
+  if (auto part = reader.optional_table("tunnel")) route.tunnel = read_tunnel(std::move(*part));
   for (TableReader& segment : reader.tables("segment")) {
     route.segments.push_back(read_segment(std::move(segment), sharpest_curvature_1pm(route.road)));
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,8 @@ struct RoadProfile {
   double lane_width_m = 3.25;
   double parking_width_m = 0.0;  ///< strip for parked cars on either side
   double pavement_width_m = 2.0;
+  double kerb_m = 0.12;      ///< how much higher the pavement is
+  double cross_fall = 0.02;  ///< from the middle of the road to its edges
 
   [[nodiscard]] double half_width_m() const noexcept {
     return 0.5 * static_cast<double>(lanes) * lane_width_m + parking_width_m;
@@ -46,12 +49,34 @@ struct Scenery {
   double building_height_m = 9.0;   ///< mean
 };
 
+/// What lies beyond the pavements.
+struct LandProfile {
+  double reach_m = 70.0;   ///< from the middle of the road; 0: there is none, and no verge
+  double roughness = 1.0;  ///< 1: uneven by decimetres
+};
+
+/// How far from the road, and how densely, a surveyor measures.
+struct SurveyPlan {
+  double reach_m = 60.0;
+  double spacing_m = 0.10;    ///< side of the square that a point stands for, near the road
+  double coarsening = 0.012;  ///< metres of spacing for each metre away
+};
+
+/// Upright walls at the outer edges of the pavements and a semicircular vault on them, over the whole road.
+struct Tunnel {
+  double wall_height_m = 2.2;
+  double niche_spacing_m = 0.0;  ///< of the emergency niches in the right wall; 0: none
+};
+
 struct Route {
   std::string name;
   std::uint64_t seed = 1;
   double heading_deg = 0.0;  ///< at the start, counter-clockwise from the map's x axis
   RoadProfile road;
   Scenery scenery;
+  LandProfile land;
+  SurveyPlan survey;
+  std::optional<Tunnel> tunnel;
   std::vector<RouteSegment> segments;
 
   [[nodiscard]] double length_m() const noexcept;

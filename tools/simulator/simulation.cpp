@@ -149,7 +149,8 @@ SimulationSummary write_drive(const Drive& drive, const std::filesystem::path& f
   SimulationSummary summary{.length_m = drive.route().length_m(), .duration_s = drive.vehicle().duration_s()};
   write_capture(drive, folder / "capture.pcap", progress, summary);
   write_truth(drive, folder / "truth.tum");
-  const std::vector<Eigen::Vector3f> map = survey(drive.world().surveyed, drive.ground(), drive.seed());
+  const std::vector<Eigen::Vector3f> map =
+      survey(drive.world().surveyed, drive.ground(), drive.route().survey, drive.seed());
   summary.map_points = map.size();
   platform::write_pcd_records(folder / "map.pcd", platform::kPositionMembers, std::as_bytes(std::span(map)),
                               sizeof(Eigen::Vector3f));

@@ -9,19 +9,16 @@
 namespace landfix::tools::simulator {
 namespace {
 
-constexpr double kReach_m = 60.0;
-
 /// The side of the square that a point stands for.
-double spacing_m(double distance_to_road_m) {
+double spacing_m(const SurveyPlan& plan, double distance_to_road_m) {
   constexpr double kNear_m = 10.0;
-  constexpr double kFinest_m = 0.10;
-  constexpr double kCoarsening = 0.012;  // metres of spacing for each metre away
-  return kFinest_m + kCoarsening * std::max(0.0, distance_to_road_m - kNear_m);
+  return plan.spacing_m + plan.coarsening * std::max(0.0, distance_to_road_m - kNear_m);
 }
 
 }  // namespace
 
-std::vector<Eigen::Vector3f> survey(const Mesh& mesh, const Ground& ground, std::uint64_t seed) {
+std::vector<Eigen::Vector3f> survey(const Mesh& mesh, const Ground& ground, const SurveyPlan& plan,
+                                    std::uint64_t seed) {
   constexpr double kBelowGround_m = 0.05;
   Random random(seed, RandomStream::survey);
   std::vector<Eigen::Vector3f> points_m;
@@ -32,12 +29,12 @@ std::vector<Eigen::Vector3f> survey(const Mesh& mesh, const Ground& ground, std:
     const Eigen::Vector3d centre_m = a + (ab + ac) / 3.0;
     const RoadPosition place = ground.project(centre_m.head<2>());
     const double distance_m = std::abs(place.offset_m - ground.road().centre_offset_m());
-    if (distance_m > kReach_m || place.station_m < -kReach_m ||
-        place.station_m > ground.path().length_m() + kReach_m) {
+    if (distance_m > plan.reach_m || place.station_m < -plan.reach_m ||
+        place.station_m > ground.path().length_m() + plan.reach_m) {
       continue;
     }
     const double area_m2 = 0.5 * ab.cross(ac).norm();
-    const double expected = area_m2 / (spacing_m(distance_m) * spacing_m(distance_m));
+    const double expected = area_m2 / (spacing_m(plan, distance_m) * spacing_m(plan, distance_m));
     const auto count = static_cast<int>(expected + random.uniform(0.0, 1.0));
     for (int i = 0; i < count; ++i) {
       double u = random.uniform(0.0, 1.0);

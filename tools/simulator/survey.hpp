@@ -8,14 +8,15 @@
 
 #include "tools/simulator/ground.hpp"
 #include "tools/simulator/mesh.hpp"
+#include "tools/simulator/route.hpp"
 
 namespace landfix::tools::simulator {
 
 /// Standard deviation of a surveyed point.
 inline constexpr double kSurveyNoise_m = 0.01;
 
-/// Uniform by area, denser near the road, up to the LiDAR's useful reach from it; nothing below the ground.
-/// Frame `map`.
-[[nodiscard]] std::vector<Eigen::Vector3f> survey(const Mesh& mesh, const Ground& ground, std::uint64_t seed);
+/// Uniform by area, as dense and as far from the road as planned; nothing below the ground. Frame `map`.
+[[nodiscard]] std::vector<Eigen::Vector3f> survey(const Mesh& mesh, const Ground& ground,
+                                                  const SurveyPlan& plan, std::uint64_t seed);
 
 }  // namespace landfix::tools::simulator

@@ -9,6 +9,7 @@
 #include "tools/simulator/footprint.hpp"
 #include "tools/simulator/random.hpp"
 #include "tools/simulator/street_furniture.hpp"
+#include "tools/simulator/tunnel.hpp"
 #include "tools/simulator/vegetation.hpp"
 
 namespace landfix::tools::simulator {
@@ -23,6 +24,7 @@ class WorldBuilder {
   World build() {
     const Scenery& scenery = route_.scenery;
     world_.surveyed = ground_.mesh();
+    if (route_.tunnel) add_tunnel(world_.surveyed, ground_, *route_.tunnel);
     along_both_sides(scenery.buildings, &WorldBuilder::add_building_at);
     along_both_sides(scenery.boundaries, &WorldBuilder::add_boundary_at);
     along_both_sides(scenery.poles, &WorldBuilder::add_lamp_at);

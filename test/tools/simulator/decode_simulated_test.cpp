@@ -58,7 +58,7 @@ TEST(DecodeSimulated, PointsMovedByTheTruthLieOnTheSurveyedMap) {
   route.scenery.parked_cars = 0.0;  // the survey knows of no cars
   route.scenery.moving_cars = 0.0;
   const Drive drive(route, 5);
-  const NearestPoint map(survey(drive.world().surveyed, drive.ground(), drive.seed()));
+  const NearestPoint map(survey(drive.world().surveyed, drive.ground(), drive.route().survey, drive.seed()));
   const drivers::SensorModel* const model = drivers::find_sensor_model("vlp16");
   ASSERT_NE(model, nullptr);
   drivers::AnyDecoder decoder = drivers::make_decoder(*model, {});

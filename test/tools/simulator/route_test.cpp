@@ -28,6 +28,8 @@ TEST(Route, NamedRoutesHaveTheLengthsAndSpeedsTheyAreKnownBy) {
   EXPECT_DOUBLE_EQ(load_route("B").length_m(), 475.0);
   EXPECT_DOUBLE_EQ(load_route("C").length_m(), 797.0);
   EXPECT_DOUBLE_EQ(load_route("street").length_m(), 300.0);
+  EXPECT_DOUBLE_EQ(load_route("tunnel").length_m(), 400.0);
+  EXPECT_DOUBLE_EQ(load_route("field").length_m(), 300.0);
   EXPECT_EQ(load_route("B").road.lanes, 4);
 }
 
@@ -76,6 +78,25 @@ TEST(Route, MistakesAreNamedWithLineAndColumn) {
               ThrowsMessage<std::runtime_error>(HasSubstr("add up to 3 m")));
 }
 
+TEST(Route, MistakesInTheOptionalTablesAreNamedWithLineAndColumn) {
+  const auto with_table = [](const std::string& table) {
+    return [table] { (void)parse_route("[road]\n[scenery]\n" + table + "\n[[segment]]\n", "my.toml"); };
+  };
+  EXPECT_THAT(with_table("[land]\nreach_m = -1"),
+              ThrowsMessage<std::runtime_error>(HasSubstr("my.toml:4:11: reach_m must be a number from 0")));
+  EXPECT_THAT(with_table("[survey]\nspacing_m = 0.0"),
+              ThrowsMessage<std::runtime_error>(HasSubstr("my.toml:4:13: spacing_m must be a number")));
+  EXPECT_THAT(with_table("[tunnel]\nwall_height = 2.0"),
+              ThrowsMessage<std::runtime_error>(HasSubstr("my.toml:4:1: unknown key 'wall_height'")));
+  EXPECT_THAT(with_table("[tunnel]\nniche_spacing_m = 1.0"),
+              ThrowsMessage<std::runtime_error>(HasSubstr("my.toml:4:19: niche_spacing_m must be 0 (none)")));
+}
+
+TEST(Route, ATunnelThatIsNoTableIsNamedWithItsPlace) {
+  EXPECT_THAT([] { (void)parse_route("tunnel = 3\n[road]\n[scenery]\n", "my.toml"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("my.toml:1:10: tunnel must be a table")));
+}
+
 TEST(Route, IsReadFromAFile) {
   const test::TemporaryDirectory folder;
   const std::string file = (folder.path() / "mine.toml").string();
@@ -85,7 +106,7 @@ TEST(Route, IsReadFromAFile) {
 
 TEST(Route, AnUnknownNameListsTheKnownOnes) {
   EXPECT_THAT([] { (void)load_route("Z"); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("A, B, C, street")));
+              ThrowsMessage<std::invalid_argument>(HasSubstr("A, B, C, field, street, tunnel")));
 }
 
 TEST(Route, CanBeShortenedButNotStretched) {

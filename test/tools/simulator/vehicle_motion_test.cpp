@@ -22,7 +22,7 @@ class VehicleMotionTest : public ::testing::Test {
       "[[segment]]\nlength_m = 80\ngrade = 0.08\nspeed_kmh = 36\n"
       "[[segment]]\nlength_m = 50\nturn_deg = -60\nspeed_kmh = 20\n");
   const Path path_{route_};
-  const Ground ground_{path_, route_.road, {}, 3};
+  const Ground ground_{path_, route_, {}, 3};
   const VehicleMotion vehicle_{route_, ground_};
 };
 

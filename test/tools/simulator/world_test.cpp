@@ -34,7 +34,8 @@ class WorldTest : public ::testing::Test {
 
 TEST_F(WorldTest, HasCarsParkedThatAreNotSurveyed) {
   ASSERT_GT(world_.parked.triangles.size(), 1000U);
-  const std::vector<Eigen::Vector3f> points_m = survey(world_.surveyed, drive_.ground(), drive_.seed());
+  const std::vector<Eigen::Vector3f> points_m =
+      survey(world_.surveyed, drive_.ground(), drive_.route().survey, drive_.seed());
   // Between ground clearance and waist only cars stand in the parking lane: nothing surveyed may be near
   // them.
   std::size_t looked_at = 0;
@@ -54,7 +55,8 @@ TEST_F(WorldTest, HasCarsParkedThatAreNotSurveyed) {
 TEST_F(WorldTest, SurveyedPointsLieOnSurfaces) {
   const std::array<const Mesh*, 1> surveyed{&world_.surveyed};
   const Scene scene(surveyed, {});
-  const std::vector<Eigen::Vector3f> points_m = survey(world_.surveyed, drive_.ground(), drive_.seed());
+  const std::vector<Eigen::Vector3f> points_m =
+      survey(world_.surveyed, drive_.ground(), drive_.route().survey, drive_.seed());
   ASSERT_GT(points_m.size(), 100'000U);
   constexpr double kNear_m = 0.08;  // four standard deviations along the axis farthest from the normal
   std::size_t on_surface = 0;
