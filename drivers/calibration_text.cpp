@@ -9,7 +9,7 @@
 namespace landfix::drivers {
 
 std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r";
+  constexpr std::string_view kBlank = " \t\r\n";
   const auto first = text.find_first_not_of(kBlank);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
@@ -39,6 +39,17 @@ std::string_view to_text(std::span<const std::byte> file) {
 
 void fail(std::string_view name, std::size_t line, const std::string& what) {
   throw std::runtime_error(std::string(name) + ":" + std::to_string(line) + ": " + what);
+}
+
+std::size_t to_index(double number, std::size_t first, std::size_t count, std::string_view what,
+                     std::string_view name, std::size_t line) {
+  const double index = number - static_cast<double>(first);
+  if (!(index >= 0.0 && index < static_cast<double>(count)) || index != std::floor(index)) {
+    fail(name, line,
+         std::string(what) + " is not one of " + std::to_string(first) + " to " +
+             std::to_string(first + count - 1) + ": is the file another sensor's?");
+  }
+  return static_cast<std::size_t>(index);
 }
 
 void rank_rings(std::vector<Beam>& beams) {

@@ -12,7 +12,7 @@
 
 namespace landfix::drivers {
 
-/// Without blanks at its ends.
+/// Without blanks and line ends at its ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
 /// Cuts what is before the first `separator` off `text`, all of it where there is none.
@@ -26,6 +26,11 @@ namespace landfix::drivers {
 
 /// Throws std::runtime_error: "NAME:LINE: WHAT".
 [[noreturn]] void fail(std::string_view name, std::size_t line, const std::string& what);
+
+/// `number` as the index of a beam, where beams are counted from `first`. `what` names it in the message.
+/// Throws std::runtime_error where it is not one of `count` whole numbers.
+[[nodiscard]] std::size_t to_index(double number, std::size_t first, std::size_t count, std::string_view what,
+                                   std::string_view name, std::size_t line);
 
 /// Ring 0 is the lowest beam; beams of equal elevation keep their order.
 void rank_rings(std::vector<Beam>& beams);

@@ -35,12 +35,7 @@ std::optional<Channel> parse_line(std::string_view line) {
 /// Puts a channel into its place, if it is one and has not been seen.
 void place(const Channel& channel, std::string_view name, std::size_t line, std::vector<Beam>& beams,
            std::vector<bool>& seen) {
-  const auto count = static_cast<double>(beams.size());
-  if (channel.number < 1.0 || channel.number > count || channel.number != std::floor(channel.number)) {
-    fail(name, line,
-         "channel is not one of 1 to " + std::to_string(beams.size()) + ": is the file another sensor's?");
-  }
-  const auto index = static_cast<std::size_t>(channel.number) - 1;
+  const std::size_t index = to_index(channel.number, 1, beams.size(), "channel", name, line);
   if (seen[index]) fail(name, line, "channel " + std::to_string(index + 1) + " is given twice");
   Beam& beam = beams[index];
   if (std::abs(channel.elevation_deg - beam.elevation_deg) > kMostApartDeg ||

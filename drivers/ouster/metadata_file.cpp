@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/calibration_text.hpp"
 #include "drivers/ouster/metadata_json.hpp"
 
 namespace landfix::drivers::ouster {
@@ -23,10 +24,9 @@ constexpr const char* kFetchAgain =
 std::optional<std::string> model_name(std::string_view prod_line) {
   if (!prod_line.starts_with("OS-")) return std::nullopt;
   prod_line.remove_prefix(3);
-  const auto family = prod_line.substr(0, prod_line.find('-'));
-  if (family.size() == prod_line.size()) return std::nullopt;
-  prod_line.remove_prefix(family.size() + 1);
-  return "os" + std::string(family) + "-" + std::string(prod_line.substr(0, prod_line.find('-')));
+  const std::string_view family = take_until(prod_line, '-');
+  if (prod_line.empty()) return std::nullopt;
+  return "os" + std::string(family) + "-" + std::string(take_until(prod_line, '-'));
 }
 
 /// "1024x10", columns a turn and turns a second.

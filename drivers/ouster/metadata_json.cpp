@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "drivers/calibration_text.hpp"
+
 namespace landfix::drivers::ouster {
 namespace {
 
@@ -15,10 +17,6 @@ std::size_t line_at(std::string_view text, std::size_t offset) {
   return 1 +
          static_cast<std::size_t>(std::count(
              text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(offset, text.size())), '\n'));
-}
-
-[[noreturn]] void fail_at(const std::string& name, std::size_t line, const std::string& what) {
-  throw std::runtime_error(name + ":" + std::to_string(line) + ": " + what);
 }
 
 std::string between(double least, double most) {
@@ -33,21 +31,22 @@ bool is_within(const nlohmann::json& value, double least, double most) {
 }  // namespace
 
 MetadataJson::MetadataJson(std::span<const std::byte> file, std::string_view name)
-    : text_(reinterpret_cast<const char*>(file.data()), file.size()), name_(name) {
+    : text_(to_text(file)), name_(name) {
   constexpr const char* kHint = "; get the metadata from http://SENSOR/api/v1/sensor/metadata";
-  if (text_.size() > kMostBytes) fail_at(name_, 1, std::string("more than 1 MiB is no metadata") + kHint);
+  if (text_.size() > kMostBytes)
+    drivers::fail(name_, 1, std::string("more than 1 MiB is no metadata") + kHint);
   const auto bounded = [&](int depth, nlohmann::json::parse_event_t /*event*/, nlohmann::json& /*value*/) {
-    if (depth > kDeepest) fail_at(name_, 1, std::string("nested too deep for metadata") + kHint);
+    if (depth > kDeepest) drivers::fail(name_, 1, std::string("nested too deep for metadata") + kHint);
     return true;
   };
   try {
     root_ = nlohmann::json::parse(text_, bounded);
   } catch (const nlohmann::json::parse_error& error) {
-    fail_at(name_, line_at(text_, error.byte), std::string("no JSON, from here on") + kHint);
+    drivers::fail(name_, line_at(text_, error.byte), std::string("no JSON, from here on") + kHint);
   } catch (const nlohmann::json::out_of_range&) {
-    fail_at(name_, 1, std::string("a number is too large") + kHint);
+    drivers::fail(name_, 1, std::string("a number is too large") + kHint);
   }
-  if (!root_.is_object()) fail_at(name_, 1, std::string("no JSON object") + kHint);
+  if (!root_.is_object()) drivers::fail(name_, 1, std::string("no JSON object") + kHint);
 }
 
 const nlohmann::json* MetadataJson::find(std::initializer_list<const char*> sections, const char* key) const {
@@ -104,7 +103,7 @@ void MetadataJson::fail(const char* key, const std::string& what) const {
   const std::size_t at = text_.find('"' + std::string(key) + '"');
   const std::string message = std::string(key) + ": " + what;
   if (at == std::string_view::npos) throw std::runtime_error(name_ + ": " + message);
-  fail_at(name_, line_at(text_, at), message);
+  drivers::fail(name_, line_at(text_, at), message);
 }
 
 }  // namespace landfix::drivers::ouster

@@ -1,6 +1,5 @@
 #include "drivers/robosense/calibration.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -12,9 +11,8 @@ namespace {
 constexpr double kMaxAngleDeg = 90.0;
 
 Beam parse_line(std::string_view text, std::string_view name, std::size_t line) {
-  const auto comma = std::min(text.find(','), text.size());
-  const auto vertical_deg = to_number(text.substr(0, comma));
-  const auto horizontal_deg = to_number(text.substr(std::min(comma + 1, text.size())));
+  const auto vertical_deg = to_number(take_until(text, ','));
+  const auto horizontal_deg = to_number(text);
   if (!vertical_deg || !horizontal_deg) {
     fail(name, line, "not two numbers: expected vertical,horizontal in degrees, a line a laser");
   }

@@ -26,10 +26,7 @@ std::vector<Beam> parse_azimuth_offsets(std::span<const std::byte> file, std::st
     const auto offset_deg = to_number(row);
     if (line == 1 && !id) continue;  // the names of the columns
     if (!id || !offset_deg) fail(name, line, "expected laser_id,azimuth_offset_deg");
-    if (*id < 0.0 || *id >= static_cast<double>(beams.size()) || *id != std::floor(*id)) {
-      fail(name, line, "laser_id is not one of 0 to " + std::to_string(beams.size() - 1));
-    }
-    const auto laser = static_cast<std::size_t>(*id);
+    const std::size_t laser = to_index(*id, 0, beams.size(), "laser_id", name, line);
     if (seen[laser]) fail(name, line, "laser " + std::to_string(laser) + " is given twice");
     if (std::abs(*offset_deg) > kMaxOffsetDeg) {
       fail(name, line, "offset is beyond 2 degrees: give what is to be added to the model's own");

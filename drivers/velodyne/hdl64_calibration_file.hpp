@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "drivers/velodyne/hdl64_calibration.hpp"
@@ -21,9 +20,6 @@ namespace landfix::drivers::velodyne {
 
 /// YAML: radians, metres; lasers that are switched off are not in it.
 [[nodiscard]] Hdl64Calibration parse_hdl64_yaml(std::string_view text, std::string_view name);
-
-/// Throws std::runtime_error "NAME:LINE: WHAT".
-[[noreturn]] void fail_at(std::string_view name, std::size_t line, const std::string& what);
 
 /// A number of a file, finite. `what` names it in the message.
 [[nodiscard]] double parse_number(std::string_view text, std::string_view what, std::string_view name,

@@ -7,6 +7,7 @@
 
 #include <pugixml.hpp>
 
+#include "drivers/calibration_text.hpp"
 #include "drivers/velodyne/hdl64_calibration_file.hpp"
 
 namespace landfix::drivers::velodyne {
@@ -23,11 +24,11 @@ class DbXml {
     }
     const pugi::xml_parse_result result = document_.load_buffer(text.data(), text.size());
     if (!result) {
-      fail_at(name, line_at(result.offset),
-              std::string("not XML: ") + result.description() + "; take the file as it was delivered");
+      fail(name, line_at(result.offset),
+           std::string("not XML: ") + result.description() + "; take the file as it was delivered");
     }
     root_ = document_.child("boost_serialization").child("DB");
-    if (!root_) fail_at(name, 1, "no <boost_serialization><DB>: is it the unit's db.xml?");
+    if (!root_) fail(name, 1, "no <boost_serialization><DB>: is it the unit's db.xml?");
   }
 
   [[nodiscard]] Hdl64Calibration read() const {
@@ -35,12 +36,13 @@ class DbXml {
     Hdl64Calibration calibration;
     std::array<bool, kHdl64Lasers> seen{};
     const pugi::xml_node points = root_.child("points_");
-    if (!points) fail_at(name_, line_of(root_), "no <points_>: is it the unit's db.xml?");
+    if (!points) fail(name_, line_of(root_), "no <points_>: is it the unit's db.xml?");
     for (const pugi::xml_node item : points.children("item")) {
       const pugi::xml_node laser = item.child("px");
-      if (!laser) fail_at(name_, line_of(item), "an <item> of <points_> without <px>");
-      const std::size_t id = read_id(laser);
-      if (seen[id]) fail_at(name_, line_of(laser), "laser " + std::to_string(id) + " is given twice");
+      if (!laser) fail(name_, line_of(item), "an <item> of <points_> without <px>");
+      const std::size_t id =
+          to_index(required(laser, "id_"), 0, kHdl64Lasers, "<id_>", name_, line_of(laser));
+      if (seen[id]) fail(name_, line_of(laser), "laser " + std::to_string(id) + " is given twice");
       seen[id] = true;
       place_laser(read_laser(laser), id, name_, line_of(laser), calibration);
     }
@@ -48,7 +50,7 @@ class DbXml {
     for (std::size_t id = 0; id < kHdl64Lasers; ++id) {
       if (seen[id]) continue;
       if (calibration.lasers[id].enabled) {
-        fail_at(name_, line_of(points), "laser " + std::to_string(id) + " of 64 is missing from <points_>");
+        fail(name_, line_of(points), "laser " + std::to_string(id) + " of 64 is missing from <points_>");
       }
     }
     return calibration;
@@ -66,7 +68,7 @@ class DbXml {
   }
   [[nodiscard]] double required(const pugi::xml_node& laser, const char* key) const {
     const pugi::xml_node node = laser.child(key);
-    if (!node) fail_at(name_, line_of(laser), std::string("a laser without <") + key + ">");
+    if (!node) fail(name_, line_of(laser), std::string("a laser without <") + key + ">");
     return number(node);
   }
   [[nodiscard]] double optional(const pugi::xml_node& laser, const char* key) const {
@@ -77,15 +79,7 @@ class DbXml {
   void check_range_unit() const {
     const pugi::xml_node unit = root_.child("distLSB_");
     if (!unit || std::abs(number(unit) - kRangeUnit_cm) < 1e-6) return;
-    fail_at(name_, line_of(unit), "<distLSB_> is not 0.2: the file is another sensor's");
-  }
-
-  [[nodiscard]] std::size_t read_id(const pugi::xml_node& laser) const {
-    const double id = required(laser, "id_");
-    if (id < 0.0 || id > static_cast<double>(kHdl64Lasers - 1) || id != std::floor(id)) {
-      fail_at(name_, line_of(laser), "<id_> is not one of 0 to 63: is the file another sensor's?");
-    }
-    return static_cast<std::size_t>(id);
+    fail(name_, line_of(unit), "<distLSB_> is not 0.2: the file is another sensor's");
   }
 
   [[nodiscard]] Hdl64Laser read_laser(const pugi::xml_node& laser) const {
@@ -113,8 +107,8 @@ class DbXml {
     for (std::size_t id = 0; id < kHdl64Lasers; ++id) {
       const Hdl64Laser& laser = calibration.lasers[id];
       if (laser.min_intensity <= laser.max_intensity) continue;
-      fail_at(name_, line_of(root_.child("minIntensity_")),
-              "laser " + std::to_string(id) + " has a least intensity above its greatest");
+      fail(name_, line_of(root_.child("minIntensity_")),
+           "laser " + std::to_string(id) + " has a least intensity above its greatest");
     }
   }
 
@@ -123,7 +117,7 @@ class DbXml {
     std::size_t id = 0;
     for (const pugi::xml_node item : root_.child(array).children("item")) {
       if (id == kHdl64Lasers) {
-        fail_at(name_, line_of(item), std::string("<") + array + "> has more than 64 items");
+        fail(name_, line_of(item), std::string("<") + array + "> has more than 64 items");
       }
       set(calibration.lasers[id++], parse_intensity(item.child_value(), array, name_, line_of(item)));
     }

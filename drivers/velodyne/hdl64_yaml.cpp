@@ -6,6 +6,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "drivers/calibration_text.hpp"
 #include "drivers/velodyne/hdl64_calibration_file.hpp"
 
 namespace landfix::drivers::velodyne {
@@ -33,7 +34,8 @@ class LasersYaml {
     std::array<bool, kHdl64Lasers> seen{};
     for (const YAML::Node& entry : lasers) {
       if (!entry.IsMap()) fail(entry, "an entry of `lasers` is not a laser's keys");
-      const std::size_t id = read_id(entry);
+      const std::size_t id =
+          to_index(required(entry, "laser_id"), 0, kHdl64Lasers, "laser_id", name_, line_of(entry.Mark()));
       if (seen[id]) fail(entry, "laser " + std::to_string(id) + " is given twice");
       seen[id] = true;
       place_laser(read_laser(entry), id, name_, line_of(entry.Mark()), calibration);
@@ -44,7 +46,7 @@ class LasersYaml {
 
  private:
   [[noreturn]] void fail(const YAML::Node& node, const std::string& what) const {
-    fail_at(name_, line_of(node.Mark()), what);
+    drivers::fail(name_, line_of(node.Mark()), what);
   }
 
   [[nodiscard]] std::string scalar(const YAML::Node& node, const char* key) const {
@@ -73,14 +75,6 @@ class LasersYaml {
     const YAML::Node unit = root_["distance_resolution"];
     if (!unit || std::abs(number(unit, "distance_resolution") - kRangeUnit_m) < 1e-6) return;
     fail(unit, "distance_resolution is not 0.002: the file is another sensor's");
-  }
-
-  [[nodiscard]] std::size_t read_id(const YAML::Node& laser) const {
-    const double id = required(laser, "laser_id");
-    if (id < 0.0 || id > static_cast<double>(kHdl64Lasers - 1) || id != std::floor(id)) {
-      fail(laser, "laser_id is not one of 0 to 63: is the file another sensor's?");
-    }
-    return static_cast<std::size_t>(id);
   }
 
   [[nodiscard]] Hdl64Laser read_laser(const YAML::Node& entry) const {
@@ -126,13 +120,13 @@ class LasersYaml {
 Hdl64Calibration parse_hdl64_yaml(std::string_view text, std::string_view name) {
   const auto is_bracket = [](char c) { return c == '[' || c == '{'; };
   if (std::ranges::count_if(text, is_bracket) > kMostBrackets) {
-    fail_at(name, 1, "more lists and maps than any calibration has: is it another file?");
+    fail(name, 1, "more lists and maps than any calibration has: is it another file?");
   }
   try {
     const YAML::Node root = YAML::Load(std::string(text));
     return LasersYaml(root, name).read();
   } catch (const YAML::Exception& error) {
-    fail_at(name, line_of(error.mark), "not YAML as expected: " + error.msg);
+    fail(name, line_of(error.mark), "not YAML as expected: " + error.msg);
   }
 }
 
