@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace landfix::drivers {
 namespace {
@@ -22,22 +23,29 @@ void check(const SensorModel& model, const DecoderOptions& options) {
   }
 }
 
-/// As many beams as the model has, of the table or of the unit.
-std::span<const Beam> beams_of(const SensorModel& model, const Calibration& calibration) {
-  const auto* const unit = std::get_if<std::vector<Beam>>(&calibration);
-  const auto beams = unit != nullptr ? std::span<const Beam>(*unit) : model.beams;
-  if (beams.size() != model.beam_count) {
-    throw std::runtime_error(std::string(model.name) + " has " + std::to_string(model.beam_count) +
-                             " beams, its calibration " + std::to_string(beams.size()) +
-                             ": is it another sensor's?");
+/// The unit's own; null where there is none. Throws where it is of another kind than the model's.
+template <class T>
+const T* unit_of(const SensorModel& model, const Calibration& calibration) {
+  const T* const unit = std::get_if<T>(&calibration);
+  if (unit == nullptr && !std::holds_alternative<std::monostate>(calibration)) {
+    throw std::runtime_error(std::string(model.name) +
+                             ": the calibration is of another kind of sensor: give the file of this unit");
   }
-  return beams;
+  return unit;
 }
 
-/// Exactly N beams of the table or of the unit.
-template <std::size_t N>
-std::span<const Beam, N> beams_of(const SensorModel& model, const Calibration& calibration) {
-  return beams_of(model, calibration).first<N>();
+void check_beam_count(const SensorModel& model, std::size_t count) {
+  if (count == model.beam_count) return;
+  throw std::runtime_error(std::string(model.name) + " has " + std::to_string(model.beam_count) +
+                           " beams, its calibration " + std::to_string(count) + ": is it another sensor's?");
+}
+
+/// Of the unit, else of the model, whose table may be empty.
+std::span<const Beam> beams_of(const SensorModel& model, const Calibration& calibration) {
+  const auto* const unit = unit_of<std::vector<Beam>>(model, calibration);
+  if (unit == nullptr) return model.beams;
+  check_beam_count(model, unit->size());
+  return *unit;
 }
 
 const robosense::Description& robosense_description(PacketFormat format) {
@@ -45,39 +53,19 @@ const robosense::Description& robosense_description(PacketFormat format) {
   return format == PacketFormat::robosense_rs16 ? robosense::kRs16 : robosense::kHelios16p;
 }
 
-AnyDecoder make_robosense(const SensorModel& model, const DecoderOptions& options,
-                          const Calibration& calibration) {
-  const robosense::Description& description = robosense_description(model.format);
-  const auto* const unit = std::get_if<std::vector<Beam>>(&calibration);
-  const auto beams = unit != nullptr ? std::span<const Beam>(*unit) : std::span<const Beam>();
-  if (unit != nullptr && beams.size() != description.lasers) {
-    throw std::runtime_error(std::string(model.name) + " has " + std::to_string(description.lasers) +
-                             " beams, its calibration " + std::to_string(beams.size()) +
-                             ": is it another sensor's?");
-  }
-  return AnyDecoder(robosense::Decoder(description, beams, options));
-}
-
 const ouster::Metadata& metadata_of(const SensorModel& model, const Calibration& calibration) {
-  const auto* const metadata = std::get_if<ouster::Metadata>(&calibration);
+  const auto* const metadata = unit_of<ouster::Metadata>(model, calibration);
   if (metadata == nullptr) {
     throw std::runtime_error(std::string(model.name) +
                              " needs its metadata file: get it from http://SENSOR/api/v1/sensor/metadata");
   }
-  if (metadata->beam_count != model.beam_count) {
-    throw std::runtime_error(std::string(model.name) + " has " + std::to_string(model.beam_count) +
-                             " beams, its metadata " + std::to_string(metadata->beam_count) +
-                             ": is it another sensor's?");
-  }
+  check_beam_count(model, metadata->beam_count);
   return *metadata;
 }
 
 AnyDecoder make_hdl64(const SensorModel& model, velodyne::Hdl64Generation generation,
                       const DecoderOptions& options, const Calibration& calibration) {
-  if (std::holds_alternative<std::vector<Beam>>(calibration)) {
-    throw std::runtime_error(std::string(model.name) + ": the calibration is another sensor's");
-  }
-  const auto* const unit = std::get_if<velodyne::Hdl64Calibration>(&calibration);
+  const auto* const unit = unit_of<velodyne::Hdl64Calibration>(model, calibration);
   if (unit == nullptr && model.calibration == CalibrationUse::required) {
     throw std::runtime_error(std::string(model.name) +
                              " has no points without the unit's calibration: give its db.xml");
@@ -96,7 +84,7 @@ AnyDecoder make_decoder(const SensorModel& model, const DecoderOptions& options,
   switch (model.format) {
     case PacketFormat::velodyne_vls128:
       return AnyDecoder(
-          velodyne::Vls128Decoder(beams_of<velodyne::kVls128Lasers>(model, calibration), options));
+          velodyne::Vls128Decoder(beams_of(model, calibration).first<velodyne::kVls128Lasers>(), options));
     case PacketFormat::velodyne_hdl64_s1:
       return make_hdl64(model, velodyne::Hdl64Generation::s1, options, calibration);
     case PacketFormat::velodyne_hdl64_s2:
@@ -119,7 +107,8 @@ AnyDecoder make_decoder(const SensorModel& model, const DecoderOptions& options,
     case PacketFormat::robosense_rs32:
     case PacketFormat::robosense_rs16:
     case PacketFormat::robosense_helios16p:
-      return make_robosense(model, options, calibration);
+      return AnyDecoder(
+          robosense::Decoder(robosense_description(model.format), beams_of(model, calibration), options));
   }
   throw std::runtime_error(std::string(model.name) + ": its packet format has no decoder");
 }

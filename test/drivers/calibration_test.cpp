@@ -108,6 +108,51 @@ TEST(HesaiCalibration, ServesEveryModelAndKnowsThemApart) {
   EXPECT_THROW(static_cast<void>(read(pandar64, qt64)), std::runtime_error);
 }
 
+/// A calibration of each kind, as large as the model.
+std::vector<Calibration> one_of_each_kind(const SensorModel& model) {
+  ouster::Metadata metadata;
+  metadata.beam_count = model.beam_count;
+  return {Calibration{}, std::vector<Beam>(model.beam_count), velodyne::Hdl64Calibration{}, metadata};
+}
+
+/// Those that the sensor's documents know.
+bool is_of_kind(const SensorModel& model, const Calibration& calibration) {
+  if (std::holds_alternative<std::monostate>(calibration))
+    return model.calibration != CalibrationUse::required;
+  if (std::holds_alternative<ouster::Metadata>(calibration)) return model.vendor == "Ouster";
+  if (std::holds_alternative<velodyne::Hdl64Calibration>(calibration)) return model.name.starts_with("hdl64");
+  return model.vendor == "Hesai" || model.vendor == "RoboSense" || model.name.starts_with("vls128");
+}
+
+TEST(MakeDecoder, TakesTheKindOfCalibrationThatASensorHasAndNoOther) {
+  for (const SensorModel& model : sensor_models()) {
+    for (const Calibration& calibration : one_of_each_kind(model)) {
+      const auto make = [&] { static_cast<void>(make_decoder(model, {}, calibration)); };
+      if (is_of_kind(model, calibration)) {
+        EXPECT_NO_THROW(make()) << model.name << ", kind " << calibration.index();
+      } else {
+        EXPECT_THROW(make(), std::runtime_error) << model.name << ", kind " << calibration.index();
+      }
+    }
+  }
+}
+
+TEST(MakeDecoder, RefusesAsManyBeamsAsAnotherModelHas) {
+  for (const SensorModel& model : sensor_models()) {
+    for (const Calibration& calibration : one_of_each_kind(model)) {
+      if (!is_of_kind(model, calibration)) continue;
+      Calibration larger = calibration;
+      if (auto* const beams = std::get_if<std::vector<Beam>>(&larger))
+        beams->emplace_back();
+      else if (auto* const metadata = std::get_if<ouster::Metadata>(&larger))
+        ++metadata->beam_count;
+      else
+        continue;
+      EXPECT_THROW(static_cast<void>(make_decoder(model, {}, larger)), std::runtime_error) << model.name;
+    }
+  }
+}
+
 TEST(MakeDecoder, RefusesAnotherModelsCalibrationAndSenselessOptions) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const SensorModel& pandar64 = *find_sensor_model("pandar64");
