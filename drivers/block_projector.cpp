@@ -37,6 +37,7 @@ BlockProjector::BlockProjector(std::span<const FiringSlot> slots, RangeFrom rang
                      .z = std::sin(elevation_rad)};
     origin_m_[i] = slot.origin_m;
     turning_time_s_[i] = slot.turning_time_s;
+    longest_turning_time_s_ = std::max(longest_turning_time_s_, std::abs(slot.turning_time_s));
     table_.time_s[i] = static_cast<float>(slot.time_s);
     table_.ring[i] = slot.ring;
     table_.direction_z[i] = static_cast<float>(direction_[i].z);
@@ -47,12 +48,15 @@ BlockProjector::BlockProjector(std::span<const FiringSlot> slots, RangeFrom rang
       table_.square_m2[i] = static_cast<float>(lead_m * lead_m - dot(slot.origin_m, slot.origin_m));
     }
   }
-  turn_rate_rad_per_s_ = 1.0;  // anything but 0, which is to be set
-  set_turn_rate(0.0);
+  turn_on(0.0);
 }
 
 void BlockProjector::set_turn_rate(double rad_per_s) noexcept {
-  if (std::abs(rad_per_s - turn_rate_rad_per_s_) <= 1e-4 * std::abs(turn_rate_rad_per_s_)) return;
+  if (std::abs(rad_per_s - turn_rate_rad_per_s_) * longest_turning_time_s_ < kLeastTurnRad) return;
+  turn_on(rad_per_s);
+}
+
+void BlockProjector::turn_on(double rad_per_s) noexcept {
   turn_rate_rad_per_s_ = rad_per_s;
   for (std::size_t i = 0; i < table_.count; ++i) {
     // Below 1 deg: the series are exact to float.

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <span>
 
 #include "drivers/slot_table.hpp"
@@ -30,6 +31,11 @@ struct FiringSlot {
   double time_s = 0.0;          ///< firing time since the block's earliest firing, >= 0
   std::uint16_t ring = 0;
 };
+
+/// While the rotor is taken for where it is to within this, lasers need not be turned on anew: a tenth of the
+/// unit in which azimuths come. Encoders are that coarse, so the measured speed flickers by tenths of a
+/// percent.
+inline constexpr double kLeastTurnRad = 1e-3 * std::numbers::pi / 180.0;
 
 /// From where a sensor measures its ranges.
 enum class RangeFrom : std::uint8_t {
@@ -67,7 +73,7 @@ class BlockProjector {
   BlockProjector(std::span<const FiringSlot> slots, RangeFrom range_from,
                  ByteOrder byte_order = ByteOrder::little) noexcept;
 
-  /// Speed of rotation, clockwise. Cheap where it has changed by less than one part in 10,000.
+  /// Speed of rotation, clockwise. Cheap where no laser fires kLeastTurnRad or more from where it did.
   void set_turn_rate(double rad_per_s) noexcept;
 
   /// Appends the points of a block, in the order of its slots.
@@ -77,7 +83,10 @@ class BlockProjector {
   template <class T>
   using PerSlot = std::array<T, kMaxSlots>;
 
+  void turn_on(double rad_per_s) noexcept;
+
   double turn_rate_rad_per_s_ = 0.0;
+  double longest_turning_time_s_ = 0.0;
   // Of the beam, at rest; the table has it turned on by its firing time.
   PerSlot<RotorVector> direction_{};
   PerSlot<RotorVector> origin_m_{};

@@ -13,20 +13,19 @@ constexpr int kPairWithinCentideg = 100;
 
 /// How a packet of each layout is made up.
 struct Cadence {
-  Hdl64Timing timing;
   std::size_t blocks;  ///< a firing
   std::int64_t firing_ns;
 };
 constexpr Cadence cadence(Hdl64Layout layout) noexcept {
   switch (layout) {
     case Hdl64Layout::single:
-      return {Hdl64Timing::single, 2, 48'000};
+      return {2, 48'000};
     case Hdl64Layout::dual:
-      return {Hdl64Timing::dual, 4, 57'600};
+      return {4, 57'600};
     case Hdl64Layout::s1:
       break;
   }
-  return {Hdl64Timing::s1, 1, 32'000};
+  return {1, 32'000};
 }
 constexpr std::int64_t packet_ns(Hdl64Layout layout) noexcept {
   return static_cast<std::int64_t>(kBlocks / cadence(layout).blocks) * cadence(layout).firing_ns;
@@ -112,7 +111,7 @@ void Hdl64Decoder::measure_rotation(const Header& header) noexcept {
   const int steps = rotation_is_known_ ? 1 : 64;
   for (int i = 0; i < steps; ++i) spin_rate_.update(std::span(azimuths_centideg).first(count), step_us);
   rotation_is_known_ = true;
-  projector_.set_rotation(cadence(header.layout).timing, spin_rate_.rad_per_s());
+  projector_.set_rotation(header.layout, spin_rate_.rad_per_s());
 }
 
 void Hdl64Decoder::read_status(std::span<const std::byte> payload, std::int64_t sensor_ns,
@@ -138,13 +137,7 @@ void Hdl64Decoder::read_status(std::span<const std::byte> payload, std::int64_t 
 void Hdl64Decoder::project_firing(std::span<const std::byte> payload, const Header& header,
                                   std::size_t firing, float time_s, Sweep& sweep) const noexcept {
   const std::size_t blocks = cadence(header.layout).blocks;
-  std::uint16_t azimuth_centideg = header.firing_azimuth_centideg[firing];
-  Hdl64Projector::Heading heading = Hdl64Projector::heading(azimuth_centideg);
   for (std::size_t b = firing * blocks; b < (firing + 1) * blocks; ++b) {
-    if (hdl64_azimuth(payload, b) != azimuth_centideg) {
-      azimuth_centideg = hdl64_azimuth(payload, b);
-      heading = Hdl64Projector::heading(azimuth_centideg);
-    }
     const auto slots_of = [&](std::size_t block) {
       return payload.data() + block * sizeof(WireBlock) + offsetof(WireBlock, slots);
     };
@@ -153,7 +146,7 @@ void Hdl64Decoder::project_firing(std::span<const std::byte> payload, const Head
     projector_.project({.slots = slots_of(b),
                         .duplicates = is_second ? slots_of(b - 2) : nullptr,
                         .first_laser = hdl64_flag(payload, b) == kUpperBlock ? std::size_t{0} : 32,
-                        .heading = heading,
+                        .azimuth_centideg = hdl64_azimuth(payload, b),
                         .time_s = time_s},
                        sweep);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "drivers/centidegrees.hpp"
 #include "drivers/little_endian.hpp"
 #include "drivers/widest.hpp"
 
@@ -27,17 +28,17 @@ const RangeGate kNothing(kRangeUnitM, 2.0 * kRangeUnitM, kRangeUnitM);
 
 /// Firing times of laser 0 to 31 of a block. S2 and S3: groups of four (appendix E). The S1's documents give
 /// none: its lasers are spread evenly over the block.
-double firing_time_us(Hdl64Timing timing, std::size_t laser) noexcept {
+double firing_time_us(Hdl64Layout layout, std::size_t laser) noexcept {
   constexpr std::array kSingleUs{0.0, 1.26, 2.46, 3.66};
   constexpr std::array kDualUs{0.0, 1.3, 2.5, 3.7};
   const std::size_t number = laser / 4;
   const auto group = static_cast<double>(number);
-  switch (timing) {
-    case Hdl64Timing::single:
+  switch (layout) {
+    case Hdl64Layout::single:
       return 6.0 * group + kSingleUs[laser % 4];
-    case Hdl64Timing::dual:
+    case Hdl64Layout::dual:
       return 7.2 * group + kDualUs[laser % 4];
-    case Hdl64Timing::s1:
+    case Hdl64Layout::s1:
       break;
   }
   return static_cast<double>(laser);
@@ -104,27 +105,23 @@ void Hdl64Projector::set_laser(std::size_t i, const Hdl64Laser& laser, bool corr
                  : kNothing;
 }
 
-void Hdl64Projector::set_rotation(Hdl64Timing timing, double rad_per_s) noexcept {
-  const bool same_speed = std::abs(rad_per_s - turn_rate_rad_per_s_) <= 1e-4 * std::abs(turn_rate_rad_per_s_);
-  if (timing == timing_ && same_speed) return;
-  timing_ = timing;
+void Hdl64Projector::set_rotation(Hdl64Layout layout, double rad_per_s) noexcept {
+  const double longest_s = 1e-6 * firing_time_us(layout, kLasersPerBlock - 1);
+  const bool same_speed = std::abs(rad_per_s - turn_rate_rad_per_s_) * longest_s < kLeastTurnRad;
+  if (layout == layout_ && same_speed) return;
+  layout_ = layout;
   turn_rate_rad_per_s_ = rad_per_s;
   turn_on();
 }
 
 void Hdl64Projector::turn_on() noexcept {
   for (std::size_t i = 0; i < kHdl64Lasers; ++i) {
-    const double time_s = 1e-6 * firing_time_us(timing_, i % kLasersPerBlock);
+    const double time_s = 1e-6 * firing_time_us(layout_, i % kLasersPerBlock);
     const double turned_rad = firing_time_azimuth_ ? turn_rate_rad_per_s_ * time_s : 0.0;
     cosine_[i] = static_cast<float>(std::cos(turned_rad - rotation_rad_[i]));
     sine_[i] = static_cast<float>(std::sin(turned_rad - rotation_rad_[i]));
     time_s_[i] = static_cast<float>(time_s);
   }
-}
-
-Hdl64Projector::Heading Hdl64Projector::heading(std::uint16_t azimuth_centideg) noexcept {
-  const double azimuth_rad = azimuth_centideg * (0.01 * kRadPerDeg);
-  return {static_cast<float>(std::cos(azimuth_rad)), static_cast<float>(std::sin(azimuth_rad))};
 }
 
 void Hdl64Projector::project(const Block& block, Sweep& sweep) const noexcept {
@@ -160,7 +157,9 @@ LANDFIX_WIDEST std::size_t Hdl64Projector::write_points(
     }
   }
 
-  const auto [block_cosine, block_sine] = block.heading;
+  const SineCosine azimuth = sine_cosine(block.azimuth_centideg);
+  const auto block_cosine = static_cast<float>(azimuth.cosine);
+  const auto block_sine = static_cast<float>(azimuth.sine);
   alignas(32) std::array<float, kCount> x;
   alignas(32) std::array<float, kCount> y;
   alignas(32) std::array<float, kCount> z;

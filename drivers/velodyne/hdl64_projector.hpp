@@ -13,15 +13,9 @@
 #include "drivers/decoder_options.hpp"
 #include "drivers/sweep.hpp"
 #include "drivers/velodyne/hdl64_calibration.hpp"
+#include "drivers/velodyne/hdl64_wire.hpp"
 
 namespace landfix::drivers::velodyne {
-
-/// When the lasers of a block fire, since the first of them.
-enum class Hdl64Timing : std::uint8_t {
-  single,  ///< S2 and S3: 48 us, upper and lower block together
-  dual,    ///< S3 with two returns: 57.6 us
-  s1,      ///< one block after the other, 32 us each
-};
 
 class Hdl64Projector {
  public:
@@ -31,21 +25,14 @@ class Hdl64Projector {
 
   /// Ranks the rings and computes all that depends on the lasers.
   void set_calibration(const Hdl64Calibration& calibration) noexcept;
-  /// Cheap where neither has changed (the speed by more than one part in 10,000).
-  void set_rotation(Hdl64Timing timing, double rad_per_s) noexcept;
-
-  /// Where the rotor points; the blocks of a firing share it.
-  struct Heading {
-    float cosine = 1.0F;
-    float sine = 0.0F;
-  };
-  [[nodiscard]] static Heading heading(std::uint16_t azimuth_centideg) noexcept;
+  /// Cheap where the layout is the same and no laser fires kLeastTurnRad or more from where it did.
+  void set_rotation(Hdl64Layout layout, double rad_per_s) noexcept;
 
   struct Block {
     const std::byte* slots = nullptr;       ///< 32 x 3 bytes
     const std::byte* duplicates = nullptr;  ///< of the other return: equal ranges are dropped; may be null
     std::size_t first_laser = 0;            ///< 0 or 32
-    Heading heading;
+    std::uint16_t azimuth_centideg = 0;
     float time_s = 0.0F;  ///< of the block's first firing, since the start of the sweep
   };
   /// Appends the points of a block, in the order of its slots.
@@ -65,7 +52,7 @@ class Hdl64Projector {
   bool firing_time_azimuth_;
   bool two_point_correction_;
   bool vertical_offsets_;
-  Hdl64Timing timing_ = Hdl64Timing::single;
+  Hdl64Layout layout_ = Hdl64Layout::single;
   double turn_rate_rad_per_s_ = 0.0;
 
   PerLaser<double> rotation_rad_{};

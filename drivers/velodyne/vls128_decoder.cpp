@@ -13,9 +13,6 @@ constexpr int kSlotsASequence = 20;
 constexpr std::int64_t kStampAfterFirstFiringNs = 8'700;
 /// The projectors are made anew when the slot is measured to be another by more than this.
 constexpr double kSlotStep = 0.001;
-/// They are turned anew when the speed has changed by more than this, which moves no laser by 0.001 deg. With
-/// one or two steps of the encoder a packet, the measured speed flickers by nearly as much.
-constexpr double kTurnRateStep = 0.005;
 
 /// Slots from the first group's firing to the laser's.
 double firing_slot(std::size_t laser) noexcept {
@@ -144,16 +141,12 @@ void Vls128Decoder::measure(const Header& header, std::int64_t first_firing_ns) 
 void Vls128Decoder::fit_projectors() noexcept {
   if (std::abs(slot_.us() - projected_slot_us_) > kSlotStep * projected_slot_us_) {
     projected_slot_us_ = slot_.us();
-    projected_rate_rad_per_s_ = 0.0;
     for (std::size_t bank = 0; bank < kBanks; ++bank) {
       projectors_[bank] = projector_of(slots_[bank], projected_slot_us_);
     }
   }
   if (!firing_time_azimuth_) return;
-  const double rate_rad_per_s = spin_rate_.rad_per_s();
-  if (std::abs(rate_rad_per_s - projected_rate_rad_per_s_) <= kTurnRateStep * rate_rad_per_s) return;
-  projected_rate_rad_per_s_ = rate_rad_per_s;
-  for (BlockProjector& projector : projectors_) projector.set_turn_rate(rate_rad_per_s);
+  for (BlockProjector& projector : projectors_) projector.set_turn_rate(spin_rate_.rad_per_s());
 }
 
 DecodeResult Vls128Decoder::decode(const Packet& packet, SweepPair& sweeps) noexcept {

@@ -52,7 +52,6 @@ class Vls128Decoder {
 
   SlotTime slot_;
   double projected_slot_us_;                                       ///< that the projectors were made for
-  double projected_rate_rad_per_s_ = 0.0;                          ///< and turned for
   std::array<std::array<FiringSlot, kBlockSlots>, kBanks> slots_;  ///< times in slots, not seconds
   std::array<BlockProjector, kBanks> projectors_;
   RangeGate gate_;
