@@ -7,10 +7,10 @@
 #include <span>
 
 #include "drivers/point.hpp"
+#include "drivers/slot_columns.hpp"
 
 namespace landfix::drivers {
 
-inline constexpr std::size_t kSlotBytes = 3;
 inline constexpr std::size_t kMaxSlots = 64;
 
 /// Returns that are kept, in the wire's unit, so that one comparison decides, zero included.
@@ -18,9 +18,6 @@ struct RawBounds {
   std::uint16_t least = 1;  // 0 is no return
   std::uint16_t most = 0xFFFF;
 };
-
-/// Of the ranges on the wire.
-enum class ByteOrder : std::uint8_t { little, big };
 
 /// What the beams have in common with those of the block before.
 struct SlotTable {
@@ -51,11 +48,6 @@ struct SlotBlock {
   float cosine = 1.0F;
   float time_s = 0.0F;  ///< >= 0
   float unit_m = 0.0F;
-};
-
-struct SlotPoints {
-  std::size_t count = 0;
-  float latest_s = 0.0F;  ///< 0 if there are none
 };
 
 /// Writes the points of a block in the order of its slots. `points` has room for `table.count`, whose rest is

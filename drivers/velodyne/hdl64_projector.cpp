@@ -24,7 +24,7 @@ constexpr double kFocalScaleM = 131.0;
 constexpr float kFocalGain = 256.0F;
 
 /// Admits no return.
-const RangeGate kNothing(kRangeUnitM, 2.0 * kRangeUnitM, kRangeUnitM);
+constexpr RawBounds kNothing{.least = 2, .most = 1};
 
 /// Firing times of laser 0 to 31 of a block. S2 and S3: groups of four (appendix E). The S1's documents give
 /// none: its lasers are spread evenly over the block.
@@ -69,7 +69,7 @@ void Hdl64Projector::set_calibration(const Hdl64Calibration& calibration) noexce
   const auto& lasers = calibration.lasers;
   for (std::size_t i = 0; i < kHdl64Lasers; ++i) {
     set_laser(i, lasers[i], !calibration.intensity_is_corrected);
-    std::uint16_t below = 0;  // equal elevations, which there are, keep the order of the lasers
+    std::uint32_t below = 0;  // equal elevations, which there are, keep the order of the lasers
     for (std::size_t other = 0; other < kHdl64Lasers; ++other) {
       const double difference = lasers[other].elevation_deg - lasers[i].elevation_deg;
       if (difference < 0.0 || (difference == 0.0 && other < i)) ++below;
@@ -100,9 +100,12 @@ void Hdl64Projector::set_laser(std::size_t i, const Hdl64Laser& laser, bool corr
   min_intensity_[i] = correct_intensity ? static_cast<float>(laser.min_intensity) : 0.0F;
   max_intensity_[i] = correct_intensity ? static_cast<float>(laser.max_intensity) : 255.0F;
   // The far correction is off by centimetres at most.
-  gate_[i] = laser.enabled
-                 ? RangeGate(kRangeUnitM, min_range_m_ - laser.range_m, max_range_m_ - laser.range_m)
-                 : kNothing;
+  const RawBounds bounds =
+      laser.enabled
+          ? RangeGate(kRangeUnitM, min_range_m_ - laser.range_m, max_range_m_ - laser.range_m).bounds()
+          : kNothing;
+  least_raw_[i] = bounds.least;
+  most_raw_[i] = bounds.most;
 }
 
 void Hdl64Projector::set_rotation(Hdl64Layout layout, double rad_per_s) noexcept {
@@ -126,48 +129,32 @@ void Hdl64Projector::turn_on() noexcept {
 
 void Hdl64Projector::project(const Block& block, Sweep& sweep) const noexcept {
   if (const auto room = sweep.unused(); room.size() >= kLasersPerBlock) {
-    const std::size_t count = write_points(block, room.first<kLasersPerBlock>());
-    // The lasers fire in the order of their slots.
-    sweep.take(count, count == 0 ? 0.0F : room[count - 1].time_s);
+    const SlotPoints written = project_lasers(block, room);
+    sweep.take(written.count, written.latest_s);
     return;
   }
   std::array<Point, kLasersPerBlock> points;  // what does not fit is counted
-  const std::size_t count = write_points(block, points);
-  for (const Point& point : std::span(points).first(count)) sweep.push(point);
+  const SlotPoints written = project_lasers(block, points);
+  for (const Point& point : std::span(points).first(written.count)) sweep.push(point);
 }
 
-/// Writes all points one after the other, those that count over those that do not; returns how many do.
-LANDFIX_WIDEST std::size_t Hdl64Projector::write_points(
-    const Block& block, std::span<Point, kLasersPerBlock> points) const noexcept {
+LANDFIX_WIDEST SlotPoints Hdl64Projector::project_lasers(const Block& block,
+                                                         std::span<Point> points) const noexcept {
   constexpr std::size_t kCount = kLasersPerBlock;
+  SlotColumns<kCount> columns;
+  read_slots(block.slots, block.duplicates, kCount, ByteOrder::little, columns);
+  auto& [words, x, y, z, intensity, kept] = columns;
   const std::size_t first = block.first_laser;
-  std::array<std::uint16_t, kCount> range_raw;
-  alignas(32) std::array<float, kCount> raw;
-  alignas(32) std::array<float, kCount> intensity;
-  for (std::size_t i = 0; i < kCount; ++i) {
-    const std::byte* const slot = block.slots + i * kSlotBytes;
-    range_raw[i] = load_little_endian<std::uint16_t>(slot);
-    raw[i] = static_cast<float>(range_raw[i]);
-    intensity[i] = static_cast<float>(std::to_integer<std::uint8_t>(slot[2]));
-  }
-  if (block.duplicates != nullptr) {
-    for (std::size_t i = 0; i < kCount; ++i) {
-      const auto other_raw = load_little_endian<std::uint16_t>(block.duplicates + i * kSlotBytes);
-      if (other_raw == range_raw[i]) range_raw[i] = 0;
-    }
-  }
-
   const SineCosine azimuth = sine_cosine(block.azimuth_centideg);
   const auto block_cosine = static_cast<float>(azimuth.cosine);
   const auto block_sine = static_cast<float>(azimuth.sine);
-  alignas(32) std::array<float, kCount> x;
-  alignas(32) std::array<float, kCount> y;
-  alignas(32) std::array<float, kCount> z;
   for (std::size_t i = 0; i < kCount; ++i) {
     const std::size_t laser = first + i;
     const float cosine = block_cosine * cosine_[laser] - block_sine * sine_[laser];
     const float sine = block_sine * cosine_[laser] + block_cosine * sine_[laser];
-    const float measured_m = raw[i] * static_cast<float>(kRangeUnitM);
+    const std::uint32_t range_raw = range_of(words[i]);
+    const auto raw = static_cast<float>(static_cast<std::int32_t>(range_raw));
+    const float measured_m = raw * static_cast<float>(kRangeUnitM);
     const float far_m = measured_m + range_m_[laser];
     const float horizontal_m = far_m * cos_elevation_[laser];
     const float offset_m = horizontal_offset_m_[laser];
@@ -183,23 +170,13 @@ LANDFIX_WIDEST std::size_t Hdl64Projector::write_points(
     y[i] = offset_m * cosine - range_x_m * cos_elevation_[laser] * sine;
     z[i] = range_y_m * sin_elevation_[laser] + vertical_offset_m_[laser];
 
-    const float nearness = 1.0F - raw[i] * (1.0F / 65535.0F);
+    const float nearness = 1.0F - raw * (1.0F / 65535.0F);
     const float dimmed = focal_slope_[laser] * std::abs(focus_[laser] - kFocalGain * nearness * nearness);
-    intensity[i] = std::min(std::max(intensity[i] + dimmed, min_intensity_[laser]), max_intensity_[laser]);
+    intensity[i] =
+        std::min(std::max(intensity_of(words[i]) + dimmed, min_intensity_[laser]), max_intensity_[laser]);
+    kept[i] = range_raw >= least_raw_[laser] && range_raw <= most_raw_[laser] ? 1 : 0;
   }
-
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < kCount; ++i) {
-    const std::size_t laser = first + i;
-    points[count] = {.x = x[i],
-                     .y = y[i],
-                     .z = z[i],
-                     .intensity = intensity[i],
-                     .time_s = block.time_s + time_s_[laser],
-                     .ring = ring_[laser]};
-    count += gate_[laser].admits(range_raw[i]) ? 1U : 0U;
-  }
-  return count;
+  return write_points(columns, kCount, block.time_s, &time_s_[first], &ring_[first], points);
 }
 
 }  // namespace landfix::drivers::velodyne

@@ -44,8 +44,8 @@ class Hdl64Projector {
 
   void set_laser(std::size_t i, const Hdl64Laser& laser, bool correct_intensity) noexcept;
   void turn_on() noexcept;
-  [[nodiscard]] std::size_t write_points(const Block& block,
-                                         std::span<Point, kLasersPerBlock> points) const noexcept;
+  /// `points` has room for kLasersPerBlock.
+  [[nodiscard]] SlotPoints project_lasers(const Block& block, std::span<Point> points) const noexcept;
 
   double min_range_m_;
   double max_range_m_;
@@ -56,8 +56,10 @@ class Hdl64Projector {
   double turn_rate_rad_per_s_ = 0.0;
 
   PerLaser<double> rotation_rad_{};
-  PerLaser<std::uint16_t> ring_{};
-  PerLaser<RangeGate> gate_{};  ///< admits nothing of a laser that is disabled
+  alignas(32) PerLaser<std::uint32_t> ring_{};
+  alignas(
+      32) PerLaser<std::uint32_t> least_raw_{};  ///< ranges that are kept: none of a laser that is disabled
+  alignas(32) PerLaser<std::uint32_t> most_raw_{};
   // The correction that replaces `range_m` within 25.04 m: at_axis + growth * distance, to the side and
   // ahead.
   alignas(32) PerLaser<float> range_m_{};
