@@ -10,12 +10,19 @@
 namespace landfix::drivers::robosense {
 namespace {
 
-constexpr std::size_t kHalfBlock = kBlockSlots / 2;
+constexpr std::size_t kHalfBlockBytes = kBlockSlots / 2 * kSlotBytes;
 /// 50 rpm: below it the rotor is starting or stands still.
 constexpr double kSlowestCentidegPerUs = 0.03;
 
 const std::byte* slots_of(std::span<const std::byte> payload, std::size_t block) noexcept {
   return &payload[block_at(block) + 4];
+}
+
+/// What the returns of a block of two are compared with: the first with none, the second with the first.
+BlockSlotBytes first_returns(const std::byte* slots) noexcept {
+  BlockSlotBytes others{};
+  std::copy_n(slots, kHalfBlockBytes, others.begin() + kHalfBlockBytes);
+  return others;
 }
 
 std::int64_t to_ns(double microseconds) noexcept { return std::llround(microseconds * 1e3); }
@@ -50,11 +57,11 @@ Decoder::Decoder(const Description& model, std::span<const Beam> beams,
 void Decoder::arrange(Layout layout) noexcept {
   layout_ = layout;
   const double pace = layout == Layout::close_firings ? 0.5 : 1.0;
-  const std::size_t count = layout == Layout::two_returns ? kHalfBlock : kBlockSlots;
   std::array<FiringSlot, kBlockSlots> slots;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < slots.size(); ++i) {
     const std::size_t laser = i % model_->lasers;
-    const double before_us = i < model_->lasers ? 0.0 : model_->firing_period_us;
+    const bool same_firing = i < model_->lasers || layout == Layout::two_returns;
+    const double before_us = same_firing ? 0.0 : model_->firing_period_us;
     const double time_s = pace * (before_us + model_->firing_time_us[laser]) * 1e-6;
     slots[i] = {.elevation_deg = angles_[laser].elevation_deg,
                 .azimuth_offset_deg = angles_[laser].azimuth_offset_deg,
@@ -63,7 +70,7 @@ void Decoder::arrange(Layout layout) noexcept {
                 .time_s = time_s,
                 .ring = ring_of(std::span(angles_).first(model_->lasers), laser)};
   }
-  projector_ = BlockProjector(std::span(slots).first(count), RangeFrom::beam_origin, ByteOrder::big);
+  projector_ = BlockProjector(slots, RangeFrom::beam_origin, ByteOrder::big);
 }
 
 DecodeStatus Decoder::take_device_info(std::span<const std::byte> payload) noexcept {
@@ -108,9 +115,8 @@ bool Decoder::fits_range_unit(std::span<const std::byte> payload) const noexcept
 
 Decoder::Firings Decoder::firings_of(const DataHeader& header) const noexcept {
   Firings firings;
-  const bool pairs = layout_ == Layout::one_firing && come_in_pairs(header.azimuth_centideg);
-  const std::size_t stride = pairs ? 2 : 1;
-  firings.returns = pairs || layout_ == Layout::two_returns ? 2 : 1;
+  firings.in_pairs = layout_ == Layout::one_firing && come_in_pairs(header.azimuth_centideg);
+  const std::size_t stride = firings.in_pairs ? 2 : 1;
   firings.count = kBlocks / stride;
   for (std::size_t f = 0; f < firings.count; ++f)
     firings.azimuth_centideg[f] = header.azimuth_centideg[f * stride];
@@ -151,18 +157,20 @@ void Decoder::project(std::span<const std::byte> payload, const DataHeader& head
   for (std::size_t f = 0; f < firings.count; ++f) {
     const std::uint16_t azimuth_centideg = firings.azimuth_centideg[f];
     const std::int64_t firing_ns = header.first_firing_ns + firings.after_ns[f];
-    const Block block{.azimuth_centideg = azimuth_centideg,
-                      .time_s = builder_.begin_block(azimuth_centideg, firing_ns, sweeps),
-                      .unit_m = static_cast<float>(unit_m)};
+    Block block{.azimuth_centideg = azimuth_centideg,
+                .time_s = builder_.begin_block(azimuth_centideg, firing_ns, sweeps),
+                .unit_m = static_cast<float>(unit_m)};
     const std::byte* const first = slots_of(payload, f * stride);
-    const std::byte* second = nullptr;
-    if (firings.returns == 2)
-      second = stride == 2 ? slots_of(payload, f * 2 + 1) : first + kHalfBlock * kSlotBytes;
+    const std::byte* const second = firings.in_pairs ? slots_of(payload, f * 2 + 1) : nullptr;
     if (centimetres_) {
       const BlockSlotBytes ordered = in_order(first);
       const BlockSlotBytes ordered_second = in_order(second == nullptr ? first : second);
       project_firing(ordered.data(), second == nullptr ? nullptr : ordered_second.data(), block, gate,
                      sweeps.current());
+    } else if (layout_ == Layout::two_returns) {
+      const BlockSlotBytes others = first_returns(first);
+      block.duplicates = others.data();
+      project_firing(first, nullptr, block, gate, sweeps.current());
     } else {
       project_firing(first, second, block, gate, sweeps.current());
     }

@@ -43,7 +43,7 @@ class Decoder {
     std::array<std::uint16_t, kBlocks> azimuth_centideg{};
     std::array<std::int64_t, kBlocks> after_ns{};  ///< since the packet's first
     std::size_t count = 0;
-    std::size_t returns = 1;       ///< of each
+    bool in_pairs = false;         ///< the second return of each is in a block of its own
     std::int64_t duration_ns = 0;  ///< until the next packet's first
     double centideg_per_us = 0.0;
   };
