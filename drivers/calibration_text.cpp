@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 namespace landfix::drivers {
@@ -53,13 +52,8 @@ std::size_t to_index(double number, std::size_t first, std::size_t count, std::s
 }
 
 void rank_rings(std::vector<Beam>& beams) {
-  std::vector<std::size_t> order(beams.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return beams[a].elevation_deg < beams[b].elevation_deg;
-  });
-  for (std::size_t rank = 0; rank < order.size(); ++rank) {
-    beams[order[rank]].ring = static_cast<std::uint16_t>(rank);
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    beams[i].ring = ring_of(i, beams.size(), [&](std::size_t beam) { return beams[beam].elevation_deg; });
   }
 }
 

@@ -10,11 +10,12 @@ namespace landfix::drivers {
 
 static_assert(std::endian::native == std::endian::little, "the loads below are plain copies");
 
-/// An unsigned integer of `bytes`, least significant byte first. The caller has checked the size.
-template <class Integer>
+/// An unsigned integer of `Bytes` bytes, least significant byte first. The caller has checked the size.
+template <class Integer, std::size_t Bytes = sizeof(Integer)>
 [[nodiscard]] inline Integer load_little_endian(const std::byte* bytes) noexcept {
-  Integer value;
-  std::memcpy(&value, bytes, sizeof(value));
+  static_assert(Bytes <= sizeof(Integer));
+  Integer value = 0;
+  std::memcpy(&value, bytes, Bytes);
   return value;
 }
 

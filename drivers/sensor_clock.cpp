@@ -21,16 +21,18 @@ constexpr std::int64_t bounded(std::int64_t receive_utc_ns) noexcept {
   return std::clamp<std::int64_t>(receive_utc_ns, 0, SensorClock::kLatestNs);
 }
 
-/// The nearest time to `near_ns`, not before 1970, at which the clock shows `microseconds`.
-constexpr std::int64_t nearest(std::uint32_t microseconds, std::int64_t near_ns) noexcept {
-  const std::int64_t hour_ns = near_ns / kHourNs * kHourNs;
-  const std::int64_t time_ns = hour_ns + std::int64_t{microseconds} * 1000;
+std::int64_t nearest(std::uint32_t microseconds, std::int64_t near_ns) noexcept {
+  return nearest_after_hour(std::int64_t{microseconds} * 1000, near_ns);
+}
+
+}  // namespace
+
+std::int64_t nearest_after_hour(std::int64_t after_hour_ns, std::int64_t near_ns) noexcept {
+  const std::int64_t time_ns = near_ns / kHourNs * kHourNs + after_hour_ns;
   if (time_ns - near_ns > kHourNs / 2 && time_ns >= kHourNs) return time_ns - kHourNs;
   if (near_ns - time_ns > kHourNs / 2) return time_ns + kHourNs;
   return time_ns;
 }
-
-}  // namespace
 
 std::int64_t SensorClock::reference_ns(std::int64_t receive_utc_ns) const noexcept {
   return bounded(bounded(receive_utc_ns) + reference_ns_);

@@ -16,6 +16,9 @@ enum class ClockVerdict : std::uint8_t {
   stepped,    ///< the second packet that says so: a clock was set, the times start anew
 };
 
+/// The time nearest to `near_ns`, not before 1970, that lies so long after a full hour.
+[[nodiscard]] std::int64_t nearest_after_hour(std::int64_t after_hour_ns, std::int64_t near_ns) noexcept;
+
 /// Takes the time of each packet by the sensor's clock and by the receiver's. A sensor that differs by more
 /// than 10 s, and has not said where it has its time from, is not synchronised (it counts from power-up, or
 /// from a date of its own): then its spacing is kept and its offset is the smallest (receive - sensor) seen,

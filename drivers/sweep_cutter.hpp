@@ -9,6 +9,12 @@ namespace landfix::drivers {
 
 inline constexpr int kTurnCentideg = 36000;
 
+/// Forward from one azimuth to another, 0 to 35999.
+[[nodiscard]] constexpr int turned_centideg(std::uint16_t from_centideg, std::uint16_t to_centideg) noexcept {
+  const int step_centideg = to_centideg - from_centideg;
+  return step_centideg < 0 ? step_centideg + kTurnCentideg : step_centideg;
+}
+
 /// For a rotor that turns clockwise. A step from block to block is read as at most a quarter turn back
 /// (jitter of the encoder, a packet out of order) and less than three quarters forward (a dark sector, lost
 /// packets): so a step back over the cut and forward again does not cut twice.

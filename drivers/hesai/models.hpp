@@ -1,7 +1,6 @@
 // Hesai's rows of the catalogue, from the user manuals. Included by drivers/sensor_model.cpp alone.
 #pragma once
 
-#include <algorithm>
 #include <array>
 
 #include "drivers/beam_tables.hpp"
@@ -19,7 +18,7 @@ inline constexpr std::array<std::uint16_t, 2> kPandar40pPayloadSizes{
 /// By the header, or where there is none by the marker of every block. An early PandarQT has the Pandar64's
 /// header to the byte: nothing but the user can tell.
 inline bool recognise(const SensorModel& model, std::span<const std::byte> payload) noexcept {
-  if (std::ranges::find(model.payload_sizes, payload.size()) == model.payload_sizes.end()) return false;
+  if (!has_size_of(model, payload)) return false;
   const PandarLayout& layout = layout_of(model.beam_count);
   if (layout.header_bytes != 0) {
     return load_little_endian<std::uint16_t>(payload.data()) == kHeaderMarker &&

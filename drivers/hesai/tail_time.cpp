@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "drivers/big_endian.hpp"
 #include "drivers/civil_time.hpp"
 
 namespace landfix::drivers::hesai {
@@ -21,7 +22,7 @@ std::optional<std::int64_t> unix_seconds_of(const WireTail& tail) noexcept {
   const auto field = [&tail](std::size_t i) { return std::to_integer<int>(tail.date[i]); };
   if (field(0) == 0 && field(1) == 0) {
     // No date has month 0: newer firmware counts Unix seconds in the other four, most significant first.
-    const std::int64_t seconds = __builtin_bswap32(load_little_endian<std::uint32_t>(&tail.date[2]));
+    const auto seconds = load_big_endian<std::uint32_t>(&tail.date[2]);
     if (seconds == 0 || seconds >= kYear2100) return std::nullopt;
     return seconds;
   }

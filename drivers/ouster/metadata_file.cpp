@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kMaxAngleDeg = 90.0;
 constexpr double kMaxLengthMm = 10'000.0;
-constexpr std::size_t kSlotsOfOldFirmware = 64;
 constexpr const char* kFetchAgain =
     "; get the file from the sensor again (http://SENSOR/api/v1/sensor/metadata)";
 
@@ -109,9 +108,9 @@ void rank_rings(Metadata& metadata) {
   for (std::size_t i = 0; i < metadata.row_count; ++i) {
     if (metadata.rows[i].present) order.push_back(i);
   }
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return metadata.rows[i].altitude_deg; });
-  for (std::size_t rank = 0; rank < order.size(); ++rank) {
-    metadata.rows[order[rank]].ring = static_cast<std::uint16_t>(rank);
+  const auto altitude_deg = [&](std::size_t beam) { return metadata.rows[order[beam]].altitude_deg; };
+  for (std::size_t beam = 0; beam < order.size(); ++beam) {
+    metadata.rows[order[beam]].ring = ring_of(beam, order.size(), altitude_deg);
   }
   metadata.beam_count = order.size();
 }
@@ -139,7 +138,7 @@ void read_rows(const MetadataJson& json, std::string_view prod_line, Metadata& m
     metadata.rows[i] = {.altitude_deg = altitudes_deg[i], .azimuth_deg = azimuths_deg[i], .present = true};
     all_named = all_named && (altitudes_deg[i] != 0.0 || azimuths_deg[i] != 0.0);
   }
-  const bool old = metadata.profile == Profile::legacy && metadata.row_count == kSlotsOfOldFirmware;
+  const bool old = metadata.profile == Profile::legacy && metadata.row_count == kRowsOfOldFirmware;
   for (std::size_t i = 0; old && i < metadata.row_count; ++i) {
     metadata.rows[i].present = has_beam(metadata.rows[i], i, prod_line, all_named);
   }

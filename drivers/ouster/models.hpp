@@ -12,12 +12,11 @@ namespace landfix::drivers::ouster {
 /// The sizes of all profiles for so many beams; of two with one size both.
 template <std::size_t Beams>
 inline constexpr auto kPayloadSizes = [] {
-  constexpr std::size_t kSlotsOfOldFirmware = 64;
   const auto size = [](Profile profile, std::size_t rows) {
     return static_cast<std::uint16_t>(packet_shape(profile, rows, kColumnsPerPacket).packet_bytes);
   };
   return std::array{size(Profile::legacy, Beams),
-                    size(Profile::legacy, Beams < kSlotsOfOldFirmware ? kSlotsOfOldFirmware : Beams),
+                    size(Profile::legacy, Beams < kRowsOfOldFirmware ? kRowsOfOldFirmware : Beams),
                     size(Profile::single, Beams),
                     size(Profile::dual, Beams),
                     size(Profile::low_rate, Beams),

@@ -37,6 +37,9 @@ enum class Profile : std::uint8_t {
   dual_colour,
 };
 
+/// Firmware up to 1.13 sends as many rows of 16 and 32 beams too, in its only profile, LEGACY.
+inline constexpr std::size_t kRowsOfOldFirmware = 64;
+
 struct ProfileRow {
   std::string_view name;  ///< `udp_profile_lidar` of the metadata
   PixelLayout pixel;

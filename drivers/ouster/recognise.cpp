@@ -5,8 +5,6 @@
 namespace landfix::drivers::ouster {
 namespace {
 
-constexpr std::size_t kLegacyGen1Rows = 64;
-
 /// One after the other in number and in time, from a multiple of their count on.
 bool has_columns(std::span<const std::byte> payload, const PacketShape& shape, bool legacy) noexcept {
   ColumnHeader last;
@@ -59,8 +57,7 @@ bool has_header_and_footer(std::span<const std::byte> payload) noexcept {
 bool recognise(const SensorModel& model, std::span<const std::byte> payload) noexcept {
   const std::size_t rows = model.beam_count;
   if (is_legacy(payload, rows)) return true;
-  // Firmware up to 1.13 sends 64 rows for 16 and 32 beams too.
-  if (rows < kLegacyGen1Rows && is_legacy(payload, kLegacyGen1Rows)) return true;
+  if (rows < kRowsOfOldFirmware && is_legacy(payload, kRowsOfOldFirmware)) return true;
   for (std::size_t i = 1; i < kProfiles.size(); ++i) {
     const PacketShape shape = packet_shape(static_cast<Profile>(i), rows, kColumnsPerPacket);
     if (payload.size() != shape.packet_bytes) continue;

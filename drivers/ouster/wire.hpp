@@ -64,14 +64,6 @@ struct PacketShape {
 static_assert(packet_shape(Profile::legacy, 64, 16).packet_bytes == 12608);
 static_assert(packet_shape(Profile::dual, 128, 16).packet_bytes == 33024);
 
-/// An unsigned integer of N bytes.
-template <std::size_t N>
-[[nodiscard]] inline std::uint64_t load_narrow(const std::byte* bytes) noexcept {
-  std::uint64_t value = 0;
-  std::memcpy(&value, bytes, N);
-  return value;
-}
-
 struct PacketHeader {
   std::uint32_t type = 0;
   std::uint32_t frame_id = 0;
@@ -84,13 +76,13 @@ struct PacketHeader {
   if (type == HeaderType::fusa) {
     return {.type = std::to_integer<std::uint32_t>(bytes[0]),
             .frame_id = load_little_endian<std::uint32_t>(bytes + 4),
-            .init_id = static_cast<std::uint32_t>(load_narrow<3>(bytes + 1)),
-            .serial_number = load_narrow<5>(bytes + 11)};
+            .init_id = load_little_endian<std::uint32_t, 3>(bytes + 1),
+            .serial_number = load_little_endian<std::uint64_t, 5>(bytes + 11)};
   }
   return {.type = load_little_endian<std::uint16_t>(bytes),
           .frame_id = load_little_endian<std::uint16_t>(bytes + 2),
-          .init_id = static_cast<std::uint32_t>(load_narrow<3>(bytes + 4)),
-          .serial_number = load_narrow<5>(bytes + 7)};
+          .init_id = load_little_endian<std::uint32_t, 3>(bytes + 4),
+          .serial_number = load_little_endian<std::uint64_t, 5>(bytes + 7)};
 }
 
 struct ColumnHeader {

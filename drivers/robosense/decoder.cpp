@@ -27,15 +27,6 @@ BlockSlotBytes first_returns(const std::byte* slots) noexcept {
 
 std::int64_t to_ns(double microseconds) noexcept { return std::llround(microseconds * 1e3); }
 
-std::uint16_t ring_of(std::span<const LaserAngles> angles, std::size_t laser) noexcept {
-  std::uint16_t below = 0;
-  for (std::size_t i = 0; i < angles.size(); ++i) {
-    const double difference_deg = angles[i].elevation_deg - angles[laser].elevation_deg;
-    if (difference_deg < 0.0 || (difference_deg == 0.0 && i < laser)) ++below;
-  }
-  return below;
-}
-
 }  // namespace
 
 Decoder::Decoder(const Description& model, std::span<const Beam> beams,
@@ -57,6 +48,7 @@ Decoder::Decoder(const Description& model, std::span<const Beam> beams,
 void Decoder::arrange(Layout layout) noexcept {
   layout_ = layout;
   const double pace = layout == Layout::close_firings ? 0.5 : 1.0;
+  const auto elevation_deg = [&](std::size_t laser) { return angles_[laser].elevation_deg; };
   std::array<FiringSlot, kBlockSlots> slots;
   for (std::size_t i = 0; i < slots.size(); ++i) {
     const std::size_t laser = i % model_->lasers;
@@ -68,7 +60,7 @@ void Decoder::arrange(Layout layout) noexcept {
                 .origin_m = {.x = options_.optical_centre ? model_->lens_forward_m : 0.0},
                 .turning_time_s = time_s,
                 .time_s = time_s,
-                .ring = ring_of(std::span(angles_).first(model_->lasers), laser)};
+                .ring = ring_of(laser, model_->lasers, elevation_deg)};
   }
   projector_ = BlockProjector(slots, RangeFrom::beam_origin, ByteOrder::big);
 }

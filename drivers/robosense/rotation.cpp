@@ -18,11 +18,6 @@ constexpr double kLowPass = 1.0 / 16.0;
 
 }  // namespace
 
-int turned_centideg(std::uint16_t a_centideg, std::uint16_t b_centideg) noexcept {
-  const int step = b_centideg - a_centideg;
-  return step < 0 ? step + kTurnCentideg : step;
-}
-
 double mean_step_centideg(std::span<const std::uint16_t> azimuths_centideg) noexcept {
   int sum = 0;
   int count = 0;

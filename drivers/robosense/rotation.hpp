@@ -10,9 +10,6 @@ namespace landfix::drivers::robosense {
 /// More from one block to the next is a gap: the sensor is silent outside its field of view.
 inline constexpr int kWidestStepCentideg = 100;
 
-/// Forward from `a` to `b`, 0 to 35999.
-[[nodiscard]] int turned_centideg(std::uint16_t a_centideg, std::uint16_t b_centideg) noexcept;
-
 /// Mean of the steps that are no gaps, which averages the encoder's jitter out; 0 where there is none.
 [[nodiscard]] double mean_step_centideg(std::span<const std::uint16_t> azimuths_centideg) noexcept;
 

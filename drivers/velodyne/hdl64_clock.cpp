@@ -36,7 +36,7 @@ std::int64_t Hdl64S1Clock::take(std::uint16_t first_azimuth_centideg, std::int64
     return newest_ns_;
   }
   // Turned since the newest packet, to within whole turns, of which those are taken that fit the receipt.
-  const int step_centideg = (first_azimuth_centideg - azimuth_centideg_ + kTurnCentideg) % kTurnCentideg;
+  const int step_centideg = turned_centideg(azimuth_centideg_, first_azimuth_centideg);
   const double step_ns = static_cast<double>(step_centideg) / kTurnCentideg * static_cast<double>(turn_ns);
   const double turns = std::round((static_cast<double>(elapsed_ns) - step_ns) / static_cast<double>(turn_ns));
   const std::int64_t packets =

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdlib>
 
+#include "drivers/sensor_clock.hpp"
+
 namespace landfix::drivers::velodyne {
 namespace {
 
@@ -37,15 +39,6 @@ static_assert(packet_ns(Hdl64Layout::s1) == Hdl64S1Clock::kPacketNs);
 /// A packet is sent when it is full.
 std::int64_t start_of_sending(std::int64_t receive_utc_ns, std::int64_t duration_ns) noexcept {
   return receive_utc_ns > duration_ns ? receive_utc_ns - duration_ns : 0;
-}
-
-/// The whole hours that bring `sensor_ns` next to `near_ns`.
-std::int64_t at_the_hour_of(std::int64_t near_ns, std::int64_t sensor_ns) noexcept {
-  const std::int64_t within_ns = (sensor_ns % kHourNs + kHourNs) % kHourNs;
-  const std::int64_t time_ns = near_ns / kHourNs * kHourNs + within_ns;
-  if (time_ns - near_ns > kHourNs / 2) return time_ns - kHourNs;
-  if (near_ns - time_ns > kHourNs / 2) return time_ns + kHourNs;
-  return time_ns;
 }
 
 Hdl64Layout read_as(Hdl64Layout layout, Hdl64Generation generation) noexcept {
@@ -120,7 +113,9 @@ void Hdl64Decoder::read_status(std::span<const std::byte> payload, std::int64_t 
   const auto value = std::to_integer<std::uint8_t>(payload[sizeof(WirePacket) - 1]);
   if (const auto utc_s = calendar_.take(type, value)) {
     const std::int64_t said_ns = *utc_s * kSecondNs;
-    const std::int64_t utc_ns = at_the_hour_of(said_ns, sensor_ns);
+    // By the receiver's clock it may be before 1970.
+    const std::int64_t after_hour_ns = (sensor_ns % kHourNs + kHourNs) % kHourNs;
+    const std::int64_t utc_ns = nearest_after_hour(after_hour_ns, said_ns);
     // Minutes and seconds are said twice: by the status and by the packet's time.
     if (std::abs(utc_ns - said_ns) < 2 * kSecondNs) builder_.learn_utc(utc_ns, receive_utc_ns);
   }
@@ -145,7 +140,7 @@ void Hdl64Decoder::project_firing(std::span<const std::byte> payload, const Head
     const bool is_second = b - firing * blocks >= 2;
     projector_.project({.slots = slots_of(b),
                         .duplicates = is_second ? slots_of(b - 2) : nullptr,
-                        .first_laser = hdl64_flag(payload, b) == kUpperBlock ? std::size_t{0} : 32,
+                        .first_laser = flag_of_block(payload, b) == kUpperBlock ? std::size_t{0} : 32,
                         .azimuth_centideg = hdl64_azimuth(payload, b),
                         .time_s = time_s},
                        sweep);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "drivers/beam.hpp"
 #include "drivers/centidegrees.hpp"
 #include "drivers/little_endian.hpp"
 #include "drivers/widest.hpp"
@@ -69,12 +70,7 @@ void Hdl64Projector::set_calibration(const Hdl64Calibration& calibration) noexce
   const auto& lasers = calibration.lasers;
   for (std::size_t i = 0; i < kHdl64Lasers; ++i) {
     set_laser(i, lasers[i], !calibration.intensity_is_corrected);
-    std::uint32_t below = 0;  // equal elevations, which there are, keep the order of the lasers
-    for (std::size_t other = 0; other < kHdl64Lasers; ++other) {
-      const double difference = lasers[other].elevation_deg - lasers[i].elevation_deg;
-      if (difference < 0.0 || (difference == 0.0 && other < i)) ++below;
-    }
-    ring_[i] = below;
+    ring_[i] = ring_of(i, kHdl64Lasers, [&](std::size_t laser) { return lasers[laser].elevation_deg; });
   }
   turn_on();
 }

@@ -25,10 +25,6 @@ inline constexpr std::uint16_t kLowerBlock = 0xDDFF;
 
 enum class Hdl64Layout : std::uint8_t { single, dual, s1 };
 
-[[nodiscard]] inline std::uint16_t hdl64_flag(std::span<const std::byte> payload,
-                                              std::size_t block) noexcept {
-  return load_little_endian<std::uint16_t>(payload.data() + block * sizeof(WireBlock));
-}
 [[nodiscard]] inline std::uint16_t hdl64_azimuth(std::span<const std::byte> payload,
                                                  std::size_t block) noexcept {
   return load_little_endian<std::uint16_t>(payload.data() + block * sizeof(WireBlock) + 2);
@@ -40,7 +36,7 @@ enum class Hdl64Layout : std::uint8_t { single, dual, s1 };
   bool is_alternating = true;
   bool is_s1 = true;
   for (std::size_t b = 0; b < kBlocks; ++b) {
-    const std::uint16_t flag = hdl64_flag(payload, b);
+    const std::uint16_t flag = flag_of_block(payload, b);
     is_alternating = is_alternating && flag == (b % 2 == 0 ? kUpperBlock : kLowerBlock);
     is_s1 = is_s1 && flag == (b % 4 == 0 ? kLowerBlock : kUpperBlock);
   }

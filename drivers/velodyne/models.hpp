@@ -6,6 +6,7 @@
 
 #include "drivers/beam_tables.hpp"
 #include "drivers/sensor_model.hpp"
+#include "drivers/velodyne/block_layout.hpp"
 #include "drivers/velodyne/hdl64_calibration.hpp"
 #include "drivers/velodyne/hdl64_wire.hpp"
 #include "drivers/velodyne/wire.hpp"
@@ -13,10 +14,6 @@
 namespace landfix::drivers::velodyne {
 
 inline constexpr std::array<std::uint16_t, 1> kPayloadSizes{sizeof(WirePacket)};
-
-inline std::uint16_t flag_of_block(std::span<const std::byte> payload, std::size_t block) noexcept {
-  return load_little_endian<std::uint16_t>(&payload[block * sizeof(WireBlock)]);
-}
 
 /// All but the HDL-64E, whose last byte may be anything, name themselves there.
 inline bool names_itself(const SensorModel& model, std::span<const std::byte> payload) noexcept {
@@ -186,8 +183,8 @@ inline constexpr std::array kModels = {
                 .data_port = 2368,
                 .telemetry_port = 8308,
                 .payload_sizes = kPayloadSizes,
-                .product_id = 0x21,
-                .firing_period_us = 46.08,
+                .product_id = kHdl32e.product,
+                .firing_period_us = kHdl32e.sequence_us(),
                 .max_returns = 2,
                 .recognise = recognise_blocks},
     SensorModel{.name = "vlp32c",
@@ -211,8 +208,8 @@ inline constexpr std::array kModels = {
                 .data_port = 2368,
                 .telemetry_port = 8308,
                 .payload_sizes = kPayloadSizes,
-                .product_id = 0x28,
-                .firing_period_us = 55.296,
+                .product_id = kVlp32c.product,
+                .firing_period_us = kVlp32c.sequence_us(),
                 .max_returns = 2,
                 .recognise = recognise_blocks},
     SensorModel{.name = "vlp16",
@@ -236,8 +233,8 @@ inline constexpr std::array kModels = {
                 .data_port = 2368,
                 .telemetry_port = 8308,
                 .payload_sizes = kPayloadSizes,
-                .product_id = 0x22,
-                .firing_period_us = 55.296,
+                .product_id = kVlp16.product,
+                .firing_period_us = kVlp16.sequence_us(),
                 .max_returns = 2,
                 .recognise = recognise_blocks},
     SensorModel{.name = "vlp16hires",
@@ -261,8 +258,8 @@ inline constexpr std::array kModels = {
                 .data_port = 2368,
                 .telemetry_port = 8308,
                 .payload_sizes = kPayloadSizes,
-                .product_id = 0x24,
-                .firing_period_us = 55.296,
+                .product_id = kVlp16HiRes.product,
+                .firing_period_us = kVlp16HiRes.sequence_us(),
                 .max_returns = 2,
                 .recognise = recognise_blocks},
 };

@@ -6,6 +6,7 @@
 
 #include "drivers/civil_time.hpp"
 #include "drivers/little_endian.hpp"
+#include "drivers/sensor_clock.hpp"
 #include "drivers/velodyne/wire.hpp"
 
 namespace landfix::drivers::velodyne {
@@ -16,7 +17,6 @@ constexpr std::size_t kPulseAt = 202;
 constexpr std::size_t kSentenceAt = 206;
 constexpr std::size_t kSentenceBytes = 128;
 constexpr double kKnotMps = 1852.0 / 3600.0;
-constexpr std::int64_t kHourNs = 3'600'000'000'000;
 
 /// A substring that may reach beyond the end: substr() of the standard throws, if not optimised away.
 [[nodiscard]] std::string_view part(std::string_view text, std::size_t at, std::size_t count) noexcept {
@@ -143,15 +143,6 @@ struct Fields {
                      .course_deg = to_decimal(fields.course).value_or(0.0)};
 }
 
-/// The full time of the sensor's count within the hour: nearest to the receiver's, which is up to a second
-/// old.
-[[nodiscard]] std::int64_t nearest(std::uint32_t top_of_hour_us, std::int64_t near_ns) noexcept {
-  std::int64_t time_ns = near_ns / kHourNs * kHourNs + std::int64_t{top_of_hour_us} * 1000;
-  if (time_ns - near_ns > kHourNs / 2) time_ns -= kHourNs;
-  if (near_ns - time_ns > kHourNs / 2) time_ns += kHourNs;
-  return time_ns;
-}
-
 }  // namespace
 
 std::optional<PositionPacket> parse_position_packet(std::span<const std::byte> payload) noexcept {
@@ -170,7 +161,8 @@ std::optional<PositionPacket> parse_position_packet(std::span<const std::byte> p
   packet.fix = fix_of(*fields);
   const auto receiver_ns = time_of(*fields);
   if (receiver_ns && packet.pulse == PulseState::locked) {
-    packet.utc_ns = nearest(packet.top_of_hour_us, *receiver_ns);
+    // The receiver's time is up to a second old.
+    packet.utc_ns = nearest_after_hour(std::int64_t{packet.top_of_hour_us} * 1000, *receiver_ns);
   }
   return packet;
 }

@@ -29,7 +29,7 @@ void SpinRate::update(std::span<const std::uint16_t> azimuths_centideg, double s
   std::array<int, kBlocks> storage;
   const auto steps = std::span(storage).first(count - 1);
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    steps[i] = (azimuths_centideg[i + 1] + kTurnCentideg - azimuths_centideg[i]) % kTurnCentideg;
+    steps[i] = turned_centideg(azimuths_centideg[i], azimuths_centideg[i + 1]);
   }
   std::sort(steps.begin(), steps.end());
   const int median = steps[steps.size() / 2];
@@ -57,7 +57,7 @@ std::int64_t SpinRate::turn_ns() const noexcept {
 
 std::int64_t SpinRate::time_between(std::uint16_t from_centideg, std::uint16_t to_centideg,
                                     std::int64_t period_ns) const noexcept {
-  const int step_centideg = (to_centideg + kTurnCentideg - from_centideg) % kTurnCentideg;
+  const int step_centideg = turned_centideg(from_centideg, to_centideg);
   const double step_ns = step_centideg / centideg_per_us_ * 1e3;
   const bool leaps =
       step_centideg < kFarthestLeapCentideg && step_ns > kLeapPeriods * static_cast<double>(period_ns);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "drivers/block_projector.hpp"
 #include "drivers/little_endian.hpp"
@@ -42,6 +43,12 @@ struct WirePacket {
 };
 static_assert(sizeof(WirePacket) == 1206);
 static_assert(alignof(WirePacket) == 1);
+
+/// The flag of a block of a payload that has the size of a packet.
+[[nodiscard]] inline std::uint16_t flag_of_block(std::span<const std::byte> payload,
+                                                 std::size_t block) noexcept {
+  return load_little_endian<std::uint16_t>(payload.data() + block * sizeof(WireBlock));
+}
 
 /// The byte `return_mode`.
 enum class ReturnMode : std::uint8_t {
