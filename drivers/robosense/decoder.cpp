@@ -68,6 +68,7 @@ void Decoder::arrange(Layout layout) noexcept {
 DecodeStatus Decoder::take_device_info(std::span<const std::byte> payload) noexcept {
   DeviceInfo info;
   const DecodeStatus status = read_device_info(*model_, payload, info);
+  of_another_model_ = status == DecodeStatus::wrong_model;
   if (status != DecodeStatus::telemetry) return status;
   speed_.set_nominal(info.motor_rpm);
   dual_return_ = info.dual_return;
@@ -176,7 +177,10 @@ DecodeResult Decoder::decode(const Packet& packet, SweepPair& sweeps) noexcept {
   DataHeader header;
   const DecodeStatus status = read_data_header(*model_, payload, header);
   if (status != DecodeStatus::decoded) return {.status = status};
-  if (!calibrated_) return {.status = DecodeStatus::uncalibrated};
+  // The data packets of the RS-LiDAR-16 and -32 are alike: only what the unit says of itself tells them
+  // apart.
+  if (!calibrated_)
+    return {.status = of_another_model_ ? DecodeStatus::wrong_model : DecodeStatus::uncalibrated};
   if (!fits_range_unit(payload)) return {.status = DecodeStatus::wrong_header};
 
   if (builder_.cannot_be(header.azimuth_centideg)) return {.status = DecodeStatus::wrong_azimuth};

@@ -66,6 +66,7 @@ class Decoder {
   UnitAngles angles_{};
   bool from_file_;
   bool calibrated_;
+  bool of_another_model_ = false;  ///< by the latest device information
   std::optional<bool> dual_return_;
   bool centimetres_ = false;
   Layout layout_;

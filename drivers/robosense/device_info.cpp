@@ -72,6 +72,15 @@ bool fit(const Description& model, const UnitAngles& angles) noexcept {
                             [](double a, double b) { return std::abs(a - b) <= kSameModelDeg; });
 }
 
+/// Whether another model's angles are where that model has them, and this one's field is blank.
+bool is_of_another(const Description& model, std::span<const std::byte> payload) noexcept {
+  return std::ranges::any_of(std::array{&kRs32, &kRs16}, [&](const Description* other) {
+    if (other == &model) return false;
+    const auto angles = read_angles(*other, payload);
+    return angles && fit(*other, *angles);
+  });
+}
+
 }  // namespace
 
 bool is_device_info(std::span<const std::byte> payload) noexcept {
@@ -93,7 +102,8 @@ DecodeStatus read_device_info(const Description& model, std::span<const std::byt
     info.dual_return = std::to_integer<std::uint8_t>(payload[kReturnModeAt]) == kDualReturn;
   }
   info.angles = read_angles(model, payload);
-  if (info.angles && !fit(model, *info.angles)) return DecodeStatus::wrong_model;
+  if (info.angles ? !fit(model, *info.angles) : is_of_another(model, payload))
+    return DecodeStatus::wrong_model;
   return DecodeStatus::telemetry;
 }
 

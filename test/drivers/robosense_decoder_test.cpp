@@ -47,7 +47,7 @@ TEST(RobosenseDecoder, RefusesPointsUntilTheUnitHasSaidItsAngles) {
   EXPECT_EQ(bench.decode(RobosenseDeviceInfo().bytes()).status, DecodeStatus::telemetry) << "not programmed";
   EXPECT_EQ(bench.decode(packet.bytes(), kReceivedNs).status, DecodeStatus::uncalibrated);
   EXPECT_EQ(bench.decode(test::robosense_unit("helios16p").bytes()).status, DecodeStatus::wrong_model);
-  EXPECT_EQ(bench.decode(packet.bytes(), kReceivedNs).status, DecodeStatus::uncalibrated);
+  EXPECT_EQ(bench.decode(packet.bytes(), kReceivedNs).status, DecodeStatus::wrong_model);
   packet.set_byte(1246, 1);
   EXPECT_EQ(bench.decode(packet.bytes(), kReceivedNs).status, DecodeStatus::wrong_header) << "sound first";
   packet.set_byte(1246, 0);

@@ -67,13 +67,13 @@ TEST(RobosenseDeviceInfo, SeesThatAUnitIsNotProgrammed) {
 }
 
 TEST(RobosenseDeviceInfo, RefusesAnotherModels) {
+  // These two keep their angles at other places; their data packets are alike, so it is this that tells.
+  static_cast<void>(read(kRs16, test::robosense_unit("rs32"), DecodeStatus::wrong_model));
+  static_cast<void>(read(kRs32, test::robosense_unit("rs16"), DecodeStatus::wrong_model));
   static_cast<void>(read(kHelios16p, test::robosense_unit("rs32"), DecodeStatus::wrong_model));
   RobosenseDeviceInfo helios = test::robosense_unit("helios16p");
   for (std::size_t i = 16; i < 32; ++i) helios.set_vertical(i, -1500 - 200 * static_cast<int>(i));
   static_cast<void>(read(kRs32, helios, DecodeStatus::wrong_model));
-  // The RS-LiDAR-16 keeps its angles elsewhere: there is nothing at the RS-LiDAR-32's place.
-  EXPECT_FALSE(read(kRs32, test::robosense_unit("rs16")).angles);
-  EXPECT_FALSE(read(kRs16, test::robosense_unit("rs32")).angles);
 }
 
 TEST(RobosenseDeviceInfo, KnowsTheFirmwareThatCountsCentimetres) {
