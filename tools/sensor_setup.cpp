@@ -1,6 +1,9 @@
 #include "tools/sensor_setup.hpp"
 
+#include <ranges>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "platform/atomic_file.hpp"
 #include "tools/command.hpp"
@@ -9,11 +12,8 @@ namespace landfix::tools {
 
 const drivers::SensorModel& find_sensor(const std::string& name) {
   if (const drivers::SensorModel* const model = drivers::find_sensor_model(name)) return *model;
-  std::string names;
-  for (const drivers::SensorModel& model : drivers::sensor_models()) {
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", model.name);
-  }
-  throw UsageError(fmt::format("no sensor '{}'; there are {}", name, names));
+  const auto names = drivers::sensor_models() | std::views::transform(&drivers::SensorModel::name);
+  throw UsageError(fmt::format("no sensor '{}'; there are {}", name, fmt::join(names, ", ")));
 }
 
 drivers::Calibration load_calibration(const drivers::SensorModel& model, const std::filesystem::path& path) {

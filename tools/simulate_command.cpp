@@ -1,5 +1,4 @@
 // landfix simulate: a drive with its capture, truth, map and configuration.
-#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -74,9 +73,10 @@ void add_simulate_command(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* const command =
       app.add_subcommand("simulate", "a drive with its capture, truth, surveyed map and configuration");
-  std::string names;
-  for (const std::string& name : simulator::route_names()) names += name + ", ";
-  command->add_option("--route", arguments->route, names + "or a TOML file")->required();
+  command
+      ->add_option("--route", arguments->route,
+                   fmt::format("{}, or a TOML file", fmt::join(simulator::route_names(), ", ")))
+      ->required();
   command
       ->add_option("--sensor", arguments->sensor,
                    fmt::format("{}", fmt::join(simulator::lidar_model_names(), ", ")))
