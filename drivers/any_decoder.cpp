@@ -15,4 +15,13 @@ const StreamCounters& AnyDecoder::counters() const noexcept {
                     decoder_);
 }
 
+std::optional<velodyne::PositionFix> AnyDecoder::position() const noexcept {
+  return std::visit(
+      [](const auto& decoder) noexcept -> std::optional<velodyne::PositionFix> {
+        if constexpr (requires { decoder.position(); }) return decoder.position();
+        return std::nullopt;
+      },
+      decoder_);
+}
+
 }  // namespace landfix::drivers

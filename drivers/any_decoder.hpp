@@ -1,6 +1,7 @@
 // The decoder of whichever sensor there is: the choice is made once a packet, not once a point.
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include "drivers/decoder.hpp"
@@ -24,6 +25,10 @@ class AnyDecoder {
   [[nodiscard]] DecodeResult decode(const Packet& packet, SweepPair& sweeps) noexcept;
   [[nodiscard]] bool flush(SweepPair& sweeps) noexcept;
   [[nodiscard]] const StreamCounters& counters() const noexcept;
+
+  /// Where the receiver at the sensor says it is, by the latest position packet. Nothing if it has no fix, or
+  /// the sensor's packets hold none.
+  [[nodiscard]] std::optional<velodyne::PositionFix> position() const noexcept;
 
  private:
   Alternatives decoder_;

@@ -22,6 +22,20 @@ constexpr auto kModels = concatenate(velodyne::kModels, hesai::kModels, ouster::
 
 }  // namespace
 
+std::string_view to_string(CalibrationUse use) noexcept {
+  switch (use) {
+    case CalibrationUse::none:
+      return "none";
+    case CalibrationUse::optional:
+      return "optional";
+    case CalibrationUse::in_stream:
+      return "in_stream";
+    case CalibrationUse::required:
+      return "required";
+  }
+  return "unknown";
+}
+
 std::span<const SensorModel> sensor_models() noexcept { return kModels; }
 
 const SensorModel* find_sensor_model(std::string_view name) noexcept {

@@ -37,6 +37,9 @@ enum class CalibrationUse : std::uint8_t {
   required,   ///< without the unit's file there are no points
 };
 
+/// "none", "optional", "in_stream", "required".
+[[nodiscard]] std::string_view to_string(CalibrationUse use) noexcept;
+
 /// The data sheet of a sensor, and what its packets look like.
 struct SensorModel {
   std::string_view name;  ///< as on the command line and in configurations

@@ -1,6 +1,7 @@
 // landfix decode: a capture to point clouds, one file a sweep.
 #include <map>
 #include <memory>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "drivers/make_decoder.hpp"
+#include "drivers/velodyne/hdl64_status.hpp"
 #include "platform/pcap_source.hpp"
 #include "tools/capture_census.hpp"
 #include "tools/capture_losses.hpp"
@@ -20,6 +22,7 @@
 namespace landfix::tools {
 namespace {
 
+using drivers::CalibrationUse;
 using drivers::DecodeStatus;
 using drivers::SensorModel;
 using drivers::Sweep;
@@ -34,11 +37,8 @@ struct Arguments {
   bool json = false;
 };
 
-std::string names_of(std::span<const SensorModel* const> models) {
-  std::string names;
-  for (const SensorModel* model : models)
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", model->name);
-  return names;
+std::string names_of(const std::vector<const SensorModel*>& models) {
+  return fmt::format("{}", fmt::join(models | std::views::transform(&SensorModel::name), ", "));
 }
 
 /// The sensor that was asked for, or the only one that the capture can hold.
@@ -93,6 +93,7 @@ DecodeSummary decode_all(platform::PcapSource& source, std::uint16_t port, std::
     const auto result =
         decoder.decode({.payload = packet.payload, .receive_utc_ns = packet.receive_utc_ns}, sweeps);
     ++summary.packets[static_cast<std::size_t>(result.status)];
+    if (const auto position = decoder.position()) summary.position = position;
     if (!result.sweep_completed) continue;
     keep(sweeps.completed());
     show_progress(fmt::format("{:3.0f} %, {} sweeps", source.percent_read(), summary.sweeps.size()));
@@ -100,6 +101,7 @@ DecodeSummary decode_all(platform::PcapSource& source, std::uint16_t port, std::
   if (decoder.flush(sweeps)) keep(sweeps.completed());
   show_progress("");
   summary.stream = decoder.counters();
+  summary.position_is_valid = decoder.position().has_value();
   if (status == platform::ReadStatus::truncated) {
     fmt::print(stderr, "the capture ends in the middle of a record ({}): what follows is missing\n",
                source.read_error());
@@ -107,10 +109,11 @@ DecodeSummary decode_all(platform::PcapSource& source, std::uint16_t port, std::
   return summary;
 }
 
-/// A capture may hold the unit's calibration behind the first of its data: it is looked for beforehand.
-void learn_calibration(platform::PcapSource& source, const SensorModel& model, drivers::AnyDecoder& decoder,
-                       drivers::SweepPair& sweeps) {
-  if (model.calibration != drivers::CalibrationUse::in_stream || model.telemetry_port == 0) return;
+/// A capture may hold the unit's calibration behind the first of its data: it is looked for beforehand. What
+/// a RoboSense says is more than its angles, so its decoder takes it.
+void learn_from_telemetry(platform::PcapSource& source, const SensorModel& model,
+                          drivers::AnyDecoder& decoder, drivers::SweepPair& sweeps) {
+  if (model.calibration != CalibrationUse::in_stream || model.telemetry_port == 0) return;
   platform::UdpPacket packet;
   while (source.next(packet) == platform::ReadStatus::packet) {
     if (packet.destination_port != model.telemetry_port) continue;
@@ -120,16 +123,44 @@ void learn_calibration(platform::PcapSource& source, const SensorModel& model, d
   source.rewind();
 }
 
+/// That an HDL-64E S2 or S3 sends byte by byte with its data: a whole set takes seconds.
+drivers::Calibration calibration_in_data(platform::PcapSource& source, const SensorModel& model,
+                                         std::uint16_t port) {
+  using drivers::velodyne::Hdl64Checksum;
+  const bool is_s3 = model.format == drivers::PacketFormat::velodyne_hdl64_s3;
+  if (!is_s3 && model.format != drivers::PacketFormat::velodyne_hdl64_s2) return {};
+  drivers::velodyne::Hdl64SetCollector collector(is_s3 ? Hdl64Checksum::crc16 : Hdl64Checksum::constant);
+  drivers::velodyne::Hdl64Calibration unit;
+  bool found = false;
+  platform::UdpPacket packet;
+  while (!found && source.next(packet) == platform::ReadStatus::packet) {
+    if (packet.destination_port != port || !looks_like(model, packet.payload)) continue;
+    const auto status = packet.payload.last<2>();
+    found = collector.take(std::to_integer<std::uint8_t>(status[0]), std::to_integer<std::uint8_t>(status[1]),
+                           unit);
+  }
+  source.rewind();
+  return found ? drivers::Calibration(unit) : drivers::Calibration();
+}
+
+/// What to do about a capture that gave no points.
+std::string hint_for(const SensorModel& model, const CaptureCensus& census, const DecodeSummary& summary) {
+  if (summary.of(DecodeStatus::wrong_model) != 0) {
+    auto others = census.candidates();
+    std::erase(others, &model);
+    return others.empty() ? "" : fmt::format("; it could be {}", names_of(others));
+  }
+  if (summary.of(DecodeStatus::uncalibrated) == 0) return "";
+  return fmt::format("; give the unit's --calibration, or a longer capture with its packets to port {}",
+                     model.telemetry_port != 0 ? model.telemetry_port : model.data_port);
+}
+
 void refuse_if_nothing_was_decoded(const Arguments& arguments, const SensorModel& model,
-                                   const DecodeSummary& summary) {
+                                   const CaptureCensus& census, const DecodeSummary& summary) {
   if (summary.decoded() != 0) return;
-  const std::string hint =
-      summary.of(DecodeStatus::uncalibrated) != 0
-          ? fmt::format("; give the unit's --calibration, or a longer capture with its packets to port {}",
-                        model.telemetry_port != 0 ? model.telemetry_port : model.data_port)
-          : "";
   throw std::runtime_error(fmt::format("{}: none of {} packets of {} could be decoded: {}{}", arguments.pcap,
-                                       summary.rejected(), model.name, reasons(summary), hint));
+                                       summary.rejected(), model.name, reasons(summary),
+                                       hint_for(model, census, summary)));
 }
 
 void decode(const Arguments& arguments) {
@@ -139,17 +170,21 @@ void decode(const Arguments& arguments) {
   source.rewind();
   const SensorModel& model = choose_sensor(arguments, census);
   const std::uint16_t port = port_of(model, arguments, census);
-  const auto calibration = load_calibration(model, arguments.calibration);
-  if (arguments.calibration.empty() && model.calibration == drivers::CalibrationUse::optional) {
+  const auto calibration = arguments.calibration.empty() && model.calibration == CalibrationUse::in_stream
+                               ? calibration_in_data(source, model, port)
+                               : load_calibration(model, arguments.calibration);
+  // Of a VLS-128 no maker's file is known, and what it could correct is within 0.03 deg.
+  const bool is_vls128 = model.format == drivers::PacketFormat::velodyne_vls128;
+  if (arguments.calibration.empty() && model.calibration == CalibrationUse::optional && !is_vls128) {
     fmt::print(stderr, "no --calibration: the angles are the model's, a unit's own differ a little\n");
   }
   drivers::AnyDecoder decoder = drivers::make_decoder(model, arguments.options, calibration);
   std::vector<drivers::Point> storage(2 * model.max_points_per_sweep());
   drivers::SweepPair sweeps(storage);
-  learn_calibration(source, model, decoder, sweeps);
+  learn_from_telemetry(source, model, decoder, sweeps);
   SweepFiles files(arguments.output, arguments.format);
   const DecodeSummary summary = decode_all(source, port, model.telemetry_port, decoder, sweeps, files);
-  refuse_if_nothing_was_decoded(arguments, model, summary);
+  refuse_if_nothing_was_decoded(arguments, model, census, summary);
   if (const std::size_t older = files.left_over(); older != 0) {
     fmt::print(stderr, "{} also holds {} sweeps of an earlier run, behind the last of this one\n",
                arguments.output, older);

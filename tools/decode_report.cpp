@@ -23,6 +23,17 @@ std::string reasons(const DecodeSummary& summary) {
   return text;
 }
 
+namespace {
+
+nlohmann::json position_of(const DecodeSummary& summary) {
+  if (!summary.position) return nullptr;
+  return {{"latitude_deg", summary.position->latitude_deg},
+          {"longitude_deg", summary.position->longitude_deg},
+          {"valid", summary.position_is_valid}};
+}
+
+}  // namespace
+
 void print_json(const drivers::SensorModel& model, const DecodeSummary& summary) {
   nlohmann::json sweeps = nlohmann::json::array();
   for (const SweepSummary& sweep : summary.sweeps) {
@@ -48,6 +59,7 @@ void print_json(const drivers::SensorModel& model, const DecodeSummary& summary)
                                 {"other_ports", summary.elsewhere}}},
                               {"clock_steps", summary.stream.clock_steps},
                               {"restarts", summary.stream.restarts},
+                              {"position", position_of(summary)},
                               {"sweeps", sweeps}};
   fmt::print("{}\n", object.dump(2));
 }
@@ -60,6 +72,11 @@ void print_text(const drivers::SensorModel& model, const DecodeSummary& summary,
     fmt::print("  rejected {}: {}\n", count, reason);
   if (summary.stream.clock_steps != 0) fmt::print("  {} steps of a clock\n", summary.stream.clock_steps);
   if (summary.stream.restarts != 0) fmt::print("  {} restarts of the sensor\n", summary.stream.restarts);
+  if (summary.position) {
+    fmt::print("  last position of the receiver at the sensor: {:.6f}, {:.6f} deg{}\n",
+               summary.position->latitude_deg, summary.position->longitude_deg,
+               summary.position_is_valid ? "" : "; it lost its fix later");
+  }
   std::size_t complete = 0;
   for (std::size_t i = 0; i < summary.sweeps.size(); ++i) {
     const SweepSummary& sweep = summary.sweeps[i];

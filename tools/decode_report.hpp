@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "drivers/decoder.hpp"
 #include "drivers/sensor_model.hpp"
+#include "drivers/velodyne/position_packet.hpp"
 
 namespace landfix::tools {
 
@@ -27,6 +29,8 @@ struct DecodeSummary {
   std::uint64_t elsewhere = 0;  ///< packets to other ports
   drivers::StreamCounters stream;
   std::vector<SweepSummary> sweeps;
+  std::optional<drivers::velodyne::PositionFix> position;  ///< the last that the receiver at the sensor had
+  bool position_is_valid = false;                          ///< it still had it in the latest packet
 
   [[nodiscard]] std::uint64_t of(drivers::DecodeStatus status) const {
     return packets[static_cast<std::size_t>(status)];

@@ -54,6 +54,7 @@ nlohmann::json to_json(const SensorModel& model) {
           {"data_port", model.data_port},
           {"telemetry_port", model.telemetry_port},
           {"payload_bytes", payload_sizes(model)},
+          {"calibration", to_string(model.calibration)},
           {"fields", field_names()}};
 }
 
@@ -65,20 +66,24 @@ void print_json() {
 
 void print_table() {
   constexpr const char* kRow =
-      "{:<11} {:<9} {:<25} {:>5}  {:<10}  {:<11} {:>9}  {:<16} {:>6} {:>10}  {:>5}  {:<13} {:>6}\n";
+      "{:<11} {:<9} {:<25} {:>5}  {:<10}  {:<11} {:>9}  {:<16} {:>6} {:>10}  {:>5}  {:<13} {:>6}  {}\n";
   fmt::print(kRow, "NAME", "VENDOR", "MODEL", "BEAMS", "RATE", "RANGE", "PRECISION", "VERTICAL", "STEP",
-             "HORIZONTAL", "LASER", "SIZE", "WEIGHT");
-  fmt::print(kRow, "", "", "", "", "Hz", "m", "m", "deg", "deg", "deg@10Hz", "nm", "mm", "kg");
+             "HORIZONTAL", "LASER", "SIZE", "WEIGHT", "CALIBRATION");
+  fmt::print(kRow, "", "", "", "", "Hz", "m", "m", "deg", "deg", "deg@10Hz", "nm", "mm", "kg", "");
   for (const SensorModel& model : drivers::sensor_models()) {
     fmt::print(kRow, model.name, model.vendor, model.display_name, model.beam_count,
                fmt::format("{}", fmt::join(rotation_rates(model), " ")),
                fmt::format("{:g} to {:g}", model.min_range_m, model.max_range_m), model.range_precision_m,
                fmt::format("{:+g} to {:+g}", model.vertical_down_deg, model.vertical_up_deg),
                model.vertical_resolution_deg, model.horizontal_resolution_at_10_hz_deg, model.wavelength_nm,
-               fmt::format("{:g} x {:g}", model.diameter_mm, model.height_mm), model.weight_kg);
+               fmt::format("{:g} x {:g}", model.diameter_mm, model.height_mm), model.weight_kg,
+               to_string(model.calibration));
   }
   fmt::print(
       "\nVERTICAL and STEP: field of view and finest spacing of the beams. SIZE: diameter x height.\n"
+      "CALIBRATION, the unit's own file: none is taken; optional, better than the model's table; in_stream, "
+      "the\n"
+      "packets bring it and a file is the alternative; required, there are no points without it.\n"
       "Every point has the fields {}; both returns of a firing are kept.\n",
       fmt::join(field_names(), " "));
 }

@@ -1,15 +1,20 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "platform/pcap_writer.hpp"
+#include "support/hdl64_packets.hpp"
+#include "support/hdl64_status_stream.hpp"
+#include "support/robosense_packets.hpp"
 #include "support/run_landfix.hpp"
 #include "support/synthetic_packets.hpp"
 #include "support/test_data.hpp"
@@ -39,6 +44,34 @@ class DecodeCommand : public testing::Test {
     capture.write({.destination_port = port}, std::vector<std::byte>(1205), kHourUtcNs + 200 * kPacketNs);
     capture.write({.destination_port = 8308}, std::vector<std::byte>(512), kHourUtcNs);
     capture.commit();
+  }
+
+  /// Of an RS-LiDAR-32, which says at the end only where its lasers point.
+  void record_rs32() {
+    platform::PcapWriter capture(pcap_);
+    for (unsigned i = 0; i < 20; ++i) {
+      test::RobosensePacket packet("rs32");
+      packet.set_azimuths(240 * i, 20);
+      packet.set_time_us(i * 666);
+      packet.set_return(0, 0, 2000, 9);
+      capture.write({.destination_port = 6699}, packet.bytes(),
+                    test::RobosensePacket::kTimeUtcNs + i * std::int64_t{666'000});
+    }
+    capture.write({.destination_port = 7788}, test::robosense_unit("rs32").bytes(),
+                  test::RobosensePacket::kTimeUtcNs + 20 * std::int64_t{666'000});
+    capture.commit();
+  }
+
+  /// A position packet of a VLP-16. `status`: A where the receiver has a fix, else V.
+  static std::vector<std::byte> position_packet(char status) {
+    const std::string body =
+        std::string("GPRMC,221321,") + status + ",4807.038,N,01131.000,E,022.4,084.4,141123,003.1,W";
+    unsigned sum = 0;
+    for (const char c : body) sum ^= static_cast<unsigned char>(c);
+    const std::string sentence = fmt::format("${}*{:02X}\r\n", body, sum);
+    std::vector<std::byte> packet(512);
+    std::ranges::transform(sentence, packet.begin() + 206, [](char c) { return static_cast<std::byte>(c); });
+    return packet;
   }
 
   int decode(const std::vector<std::string>& more = {}) {
@@ -131,6 +164,61 @@ TEST_F(DecodeCommand, ListsTheCandidatesWhereThereAreSeveral) {
   EXPECT_THAT(error_, HasSubstr("could be vlp16, pandar64; choose with --sensor"));
 }
 
+TEST_F(DecodeCommand, LosesNoPacketOfASensorThatSaysLaterWhereItsLasersPoint) {
+  record_rs32();
+  ASSERT_EQ(decode({"--json", "--sensor", "rs32"}), 0) << error_;
+  const auto packets = nlohmann::json::parse(out_).at("packets");
+  EXPECT_EQ(packets.at("decoded"), 20);
+  EXPECT_EQ(packets.at("rejected"), 0);
+}
+
+TEST_F(DecodeCommand, LosesNoPacketOfAnHdl64ThatSendsItsCalibrationByteByByte) {
+  constexpr std::int64_t kHdl64PacketNs = 288'000;
+  platform::PcapWriter capture(pcap_);
+  const auto sent = test::sent_set();
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    auto packet = test::hdl64_packet(static_cast<unsigned>(104 * i % 36000), 17);
+    packet.set_time_us(static_cast<std::uint32_t>(i * 288));
+    packet.set_return(0, 0, 5000, 9);
+    packet.set_mode(sent[i].type);
+    packet.set_product(sent[i].value);
+    capture.write({.destination_port = 2368}, packet.bytes(),
+                  kHourUtcNs + static_cast<std::int64_t>(i) * kHdl64PacketNs);
+  }
+  capture.commit();
+  ASSERT_EQ(decode({"--json", "--sensor", "hdl64s2"}), 0) << error_;
+  const auto packets = nlohmann::json::parse(out_).at("packets");
+  EXPECT_EQ(packets.at("decoded"), sent.size());
+  EXPECT_EQ(packets.at("rejected"), 0);
+}
+
+TEST_F(DecodeCommand, NamesTheOtherModelWhereTheUnitSaysThatItIsAnother) {
+  record_rs32();
+  EXPECT_EQ(decode({"--sensor", "rs16"}), 1);
+  EXPECT_THAT(error_, HasSubstr("another sensor model"));
+  EXPECT_THAT(error_, HasSubstr("it could be rs32"));
+}
+
+TEST_F(DecodeCommand, ShowsWhereTheReceiverAtTheSensorIs) {
+  record_vlp16();
+  ASSERT_EQ(decode({"--json"}), 0) << error_;
+  EXPECT_TRUE(nlohmann::json::parse(out_).at("position").is_null());
+  for (const char status : {'A', 'V'}) {
+    platform::PcapWriter capture(pcap_);
+    capture.write({.destination_port = 2368}, test::VelodynePacket().bytes(), kHourUtcNs);
+    capture.write({.destination_port = 8308}, position_packet('A'), kHourUtcNs);
+    capture.write({.destination_port = 8308}, position_packet(status), kHourUtcNs);
+    capture.commit();
+    ASSERT_EQ(decode({"--json"}), 0) << error_;
+    const auto position = nlohmann::json::parse(out_).at("position");
+    EXPECT_NEAR(position.at("latitude_deg").get<double>(), 48.1173, 1e-9);
+    EXPECT_NEAR(position.at("longitude_deg").get<double>(), 11.5 + 1.0 / 60.0, 1e-9);
+    EXPECT_EQ(position.at("valid"), status == 'A');
+  }
+  ASSERT_EQ(decode(), 0) << error_;
+  EXPECT_THAT(out_, HasSubstr("receiver at the sensor: 48.117300, 11.516667 deg; it lost its fix later"));
+}
+
 TEST_F(DecodeCommand, RefusesWhatItCannotUse) {
   platform::PcapWriter empty(pcap_);
   empty.commit();
@@ -183,12 +271,13 @@ TEST(SensorsCommand, ListsTheCatalogue) {
   const test::Outcome outcome = test::run_landfix({"sensors", "--json"});
   EXPECT_EQ(outcome.code, 0);
   const auto object = nlohmann::json::parse(outcome.out);
-  for (const auto& sensor : object.at("sensors")) {
-    if (sensor.at("name") != "vlp16") continue;
-    EXPECT_EQ(sensor.at("beams"), 16);
-    return;
-  }
-  FAIL() << "no vlp16";
+  std::map<std::string, nlohmann::json> sensors;
+  for (const auto& sensor : object.at("sensors")) sensors[sensor.at("name")] = sensor;
+  EXPECT_EQ(sensors["vlp16"].at("beams"), 16);
+  EXPECT_EQ(sensors["vlp16"].at("calibration"), "none");
+  EXPECT_EQ(sensors["pandar64"].at("calibration"), "optional");
+  EXPECT_EQ(sensors["rs32"].at("calibration"), "in_stream");
+  EXPECT_EQ(sensors["os1-64"].at("calibration"), "required");
 }
 
 }  // namespace
