@@ -13,6 +13,12 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace landfix::ndt;
+  static const std::vector<Eigen::Vector3f> scan = [] {
+    std::vector<Eigen::Vector3f> points_m;
+    for (float x = -8.0F; x < 8.0F; x += 1.7F) points_m.emplace_back(x, 0.3F * x, -0.2F * x);
+    return points_m;
+  }();
+  static PairGroups groups(scan.size());
   std::vector<std::byte> file(size);
   if (size != 0) std::memcpy(file.data(), data, size);
   if (size >= sizeof(MapHeader)) {
@@ -29,9 +35,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const MapImage image = load_map(file, "fuzz.ndt");
     const VoxelMap map(image.bytes());
-    std::vector<Eigen::Vector3f> scan;
-    for (float x = -8.0F; x < 8.0F; x += 1.7F) scan.emplace_back(x, 0.3F * x, -0.2F * x);
-    PairGroups groups(scan.size());
     groups.assign(scan, 1);
     (void)evaluate(map, groups, Pose::Identity(), Covariance::wide, {});
   } catch (const std::runtime_error&) {

@@ -1,23 +1,40 @@
+#include <cstdint>
+
 #include "fuzz/fuzz_decoder.hpp"
 #include "support/ouster_packets.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  namespace ouster = landfix::drivers::ouster;
-  auto input = std::as_bytes(std::span(data, size));
-  if (input.empty()) return 0;
-  // The first byte chooses the profile, the header and whether there is a window.
-  const auto choice = std::to_integer<std::size_t>(input[0]);
-  input = input.subspan(1);
-  const auto profile = static_cast<ouster::Profile>(choice % ouster::kProfiles.size());
-  ouster::Metadata metadata = landfix::test::ouster_metadata(profile, 16, 512);
-  if (choice >= 128) metadata.header_type = ouster::HeaderType::fusa;
-  if (choice >= 192) metadata.window = {.first = 370, .last = 85};
+namespace {
+
+namespace ouster = landfix::drivers::ouster;
+
+landfix::test::FuzzedSensor os1(ouster::Metadata metadata) {
   landfix::test::OusterPacket sound(metadata);
   sound.set_place(2, 1'700'000'000'000'000'000);
   for (std::size_t row = 0; row < 16; ++row) sound.set_return(3, row, 1000);
-  for (const auto& model : landfix::drivers::sensor_models()) {
-    static_cast<void>(landfix::drivers::looks_like(model, input));
+  return {"os1-16", {landfix::test::to_bytes(sound.bytes())}, metadata};
+}
+
+/// Each profile: with its own header, with FUSA's, and that with a window.
+std::vector<landfix::test::FuzzedSensor> all_profiles() {
+  std::vector<landfix::test::FuzzedSensor> sensors;
+  for (std::size_t i = 0; i < ouster::kProfiles.size(); ++i) {
+    auto metadata = landfix::test::ouster_metadata(static_cast<ouster::Profile>(i), 16, 512);
+    sensors.push_back(os1(metadata));
+    metadata.header_type = ouster::HeaderType::fusa;
+    sensors.push_back(os1(metadata));
+    metadata.window = {.first = 370, .last = 85};
+    sensors.push_back(os1(metadata));
   }
-  landfix::test::fuzz_decoder("os1-16", sound.bytes(), input, metadata);
+  return sensors;
+}
+
+}  // namespace
+
+/// The first byte says of which profile the packets are.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const auto sensors = all_profiles();
+  if (size == 0) return 0;
+  landfix::test::fuzz_decoder(sensors[data[0] % sensors.size()],
+                              std::as_bytes(std::span(data, size).subspan(1)));
   return 0;
 }
