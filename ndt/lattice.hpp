@@ -21,6 +21,11 @@ struct Cell {
 /// Cells of larger index would not fit a block key: at 1 m, 4,000 km.
 inline constexpr std::int32_t kMaxCell = 1 << 22;
 
+/// Whether cells can be of this size [m]; beyond, single precision gives out.
+[[nodiscard]] constexpr bool is_resolution(double resolution_m) noexcept {
+  return resolution_m >= 0.001 && resolution_m <= 1000.0;  // NaN is not
+}
+
 /// A point as its cell and its place in it, which single precision resolves to 60 nm at 1 m, wherever the map
 /// is.
 struct LatticePoint {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <stdexcept>
 
@@ -52,8 +51,7 @@ void validate_map(std::span<const std::byte> image, const std::string& name) {
                            header.table_size * sizeof(BlockEntry) + header.voxel_count * sizeof(Voxel) +
                                    3 * mean_column_size(header.voxel_count) * sizeof(float) ==
                                body;
-  if (!sizes_agree || !(header.resolution_m > 0.0) || !std::isfinite(header.resolution_m) ||
-      header.longest_probe >= header.table_size) {
+  if (!sizes_agree || !is_resolution(header.resolution_m) || header.longest_probe >= header.table_size) {
     refuse("its header is damaged; copy or build it again");
   }
   if (header.voxel_count == 0) refuse("it holds no voxel; build it again");

@@ -69,8 +69,8 @@ std::uint32_t insert(std::span<BlockEntry> table, const BlockEntry& entry) noexc
 
 VoxelMapBuilder::VoxelMapBuilder(double resolution_m, std::size_t capacity)
     : resolution_m_(resolution_m), capacity_(capacity) {
-  if (!(resolution_m > 0.0) || !std::isfinite(resolution_m)) {
-    throw std::runtime_error(fmt::format("resolution {} m is not a positive length", resolution_m));
+  if (!is_resolution(resolution_m)) {
+    throw std::runtime_error(fmt::format("resolution {} m is not one of 0.001 m to 1000 m", resolution_m));
   }
   if (capacity == 0 || capacity >= (std::size_t{1} << 31)) {
     throw std::runtime_error(

@@ -16,8 +16,8 @@ namespace landfix::ndt {
 
 class VoxelMapBuilder {
  public:
-  /// `resolution_m`: edge of a voxel, > 0. `capacity`: cells that points may fall in; no point after the
-  /// last of them is taken. Throws std::runtime_error where the memory cannot be had.
+  /// `resolution_m`: edge of a voxel, see is_resolution. `capacity`: cells that points may fall in; no point
+  /// after the last of them is taken. Throws std::runtime_error where the memory cannot be had.
   VoxelMapBuilder(double resolution_m, std::size_t capacity);
 
   /// Throws std::runtime_error where a point opens a cell beyond the capacity. A point that is not finite or

@@ -1,6 +1,7 @@
 #include "ndt/voxel_map.hpp"
 
 #include <bit>
+#include <cstring>
 #include <limits>
 #include <random>
 
@@ -119,6 +120,8 @@ TEST(VoxelMapBuilder, SkipsPointsThatHaveNoPlaceInTheLattice) {
 TEST(VoxelMapBuilder, RefusesSizesThatAreNone) {
   EXPECT_THROW(VoxelMapBuilder(0.0, 10), std::runtime_error);
   EXPECT_THROW(VoxelMapBuilder(-1.0, 10), std::runtime_error);
+  EXPECT_THROW(VoxelMapBuilder(1e-300, 10), std::runtime_error);
+  EXPECT_THROW(VoxelMapBuilder(1e300, 10), std::runtime_error);
   EXPECT_THROW(VoxelMapBuilder(std::numeric_limits<double>::quiet_NaN(), 10), std::runtime_error);
   EXPECT_THROW(VoxelMapBuilder(1.0, 0), std::runtime_error);
 }
@@ -165,6 +168,20 @@ TEST(MapFile, SaysWhatIsWrong) {
   std::vector<std::byte> damaged = bytes;
   damaged.back() ^= std::byte{1};
   EXPECT_THAT(error_of(damaged), HasSubstr("checksum"));
+}
+
+TEST(MapFile, RefusesAResolutionThatNoCellCanHave) {
+  const MapImage image = build_map(random_yard(1, 3000), 4.0);
+  std::vector<std::byte> bytes(image.bytes().begin(), image.bytes().end());
+  for (const double resolution_m : {1e300, 1e-300, -4.0, std::numeric_limits<double>::quiet_NaN()}) {
+    MapHeader header;
+    std::memcpy(&header, bytes.data(), sizeof header);
+    header.resolution_m = resolution_m;
+    std::memcpy(bytes.data(), &header, sizeof header);
+    header.checksum = map_checksum(bytes);
+    std::memcpy(bytes.data(), &header, sizeof header);
+    EXPECT_THAT(error_of(bytes), HasSubstr("its header is damaged")) << resolution_m;
+  }
 }
 
 }  // namespace
