@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fuzz/fuzz_text.hpp"
+#include "fuzz/fuzz_file.hpp"
 #include "platform/configuration.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

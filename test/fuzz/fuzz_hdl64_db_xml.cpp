@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "drivers/velodyne/hdl64_calibration_file.hpp"
-#include "fuzz/fuzz_text.hpp"
+#include "fuzz/fuzz_file.hpp"
 #include "support/hdl64_calibration_text.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "drivers/velodyne/hdl64_calibration_file.hpp"
-#include "fuzz/fuzz_text.hpp"
+#include "fuzz/fuzz_file.hpp"
 #include "support/hdl64_calibration_text.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -6,7 +6,7 @@
 
 #include "drivers/hesai/calibration.hpp"
 #include "drivers/sensor_model.hpp"
-#include "fuzz/fuzz_text.hpp"
+#include "fuzz/fuzz_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   // Few channels, and those near zero, so that the fuzzer can find whole files.

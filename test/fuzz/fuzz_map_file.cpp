@@ -5,39 +5,66 @@
 #include <cstring>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
+#include "fuzz/fuzz_file.hpp"
 #include "ndt/map_file.hpp"
 #include "ndt/objective.hpp"
 #include "ndt/pair_groups.hpp"
+#include "ndt/voxel_map_builder.hpp"
+
+namespace {
+
+using namespace landfix::ndt;
+
+/// Three voxels in two blocks.
+std::string sound_map() {
+  VoxelMapBuilder builder(1.0, 8);
+  for (const double x_m : {0.0, 1.0, 6.0}) {
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      const Eigen::Vector3d offset_m(0.2 + 0.4 * (corner & 1U), 0.3 + 0.2 * (corner / 2 & 1U),
+                                     0.4 + 0.3 * (corner / 4));
+      builder.add(Eigen::Vector3d(x_m, 0.0, 0.0) + offset_m);
+    }
+  }
+  const MapImage image = builder.build();
+  return {reinterpret_cast<const char*>(image.bytes().data()), image.bytes().size()};
+}
+
+/// Magic, version, byte order, size and checksum as they should be.
+void make_credible(std::span<std::byte> file) {
+  if (file.size() < sizeof(MapHeader)) return;
+  MapHeader header;
+  std::memcpy(&header, file.data(), sizeof header);
+  header.magic = kMapMagic;
+  header.version = kMapVersion;
+  header.byte_order = kMapByteOrder;
+  header.total_bytes = file.size();
+  std::memcpy(file.data(), &header, sizeof header);
+  header.checksum = map_checksum(file);
+  std::memcpy(file.data(), &header, sizeof header);
+}
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace landfix::ndt;
+  static const std::string sound = sound_map();
   static const std::vector<Eigen::Vector3f> scan = [] {
     std::vector<Eigen::Vector3f> points_m;
     for (float x = -8.0F; x < 8.0F; x += 1.7F) points_m.emplace_back(x, 0.3F * x, -0.2F * x);
     return points_m;
   }();
   static PairGroups groups(scan.size());
-  std::vector<std::byte> file(size);
-  if (size != 0) std::memcpy(file.data(), data, size);
-  if (size >= sizeof(MapHeader)) {
-    MapHeader header;
-    std::memcpy(&header, file.data(), sizeof header);
-    header.magic = kMapMagic;
-    header.version = kMapVersion;
-    header.byte_order = kMapByteOrder;
-    header.total_bytes = size;
-    std::memcpy(file.data(), &header, sizeof header);
-    header.checksum = map_checksum(file);
-    std::memcpy(file.data(), &header, sizeof header);
-  }
+  std::string file = landfix::test::fuzzed_file(sound, std::span(data, size));
+  const auto bytes = std::as_writable_bytes(std::span(file));
+  make_credible(bytes);
   try {
-    const MapImage image = load_map(file, "fuzz.ndt");
+    const MapImage image = load_map(bytes, "fuzz.ndt");
     const VoxelMap map(image.bytes());
     groups.assign(scan, 1);
     (void)evaluate(map, groups, Pose::Identity(), Covariance::wide, {});
-  } catch (const std::runtime_error&) {
+  } catch (const std::runtime_error&) {  // refused, as it should be
   }
   return 0;
 }

@@ -8,7 +8,7 @@
 
 #include "drivers/make_decoder.hpp"
 #include "drivers/ouster/metadata_file.hpp"
-#include "fuzz/fuzz_text.hpp"
+#include "fuzz/fuzz_file.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "drivers/robosense/calibration.hpp"
-#include "fuzz/fuzz_text.hpp"
+#include "fuzz/fuzz_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   constexpr std::size_t kLasers = 3;  // few, so that the fuzzer can find whole files

@@ -6,7 +6,7 @@
 
 #include "drivers/sensor_model.hpp"
 #include "drivers/velodyne/azimuth_offsets.hpp"
-#include "fuzz/fuzz_text.hpp"
+#include "fuzz/fuzz_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const auto table = landfix::drivers::find_sensor_model("vls128")->beams.first(3);
