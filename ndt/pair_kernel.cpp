@@ -56,11 +56,6 @@ HWY_ATTR Vector cross(const Vector& a, const Vector& b) {
           hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
 }
 
-/// The running sums, a vector each, in the order of GroupSums.
-struct Sums {
-  V at[kGroupSumCount];
-};
-
 HWY_ATTR void add(V& sum, V a, V b) { sum = hn::MulAdd(a, b, sum); }
 
 /// w J' C J with J = [I, -S], S = skew(y): C, -C S, S' C S.
@@ -102,12 +97,12 @@ HWY_ATTR void add_outer(V* sums, const V (&u)[6], V weight) {
   }
 }
 
-/// The candidates from `i` on, as vectors.
+/// The candidates from `i` on, as vectors. Made in one piece: a constructor of the compiler's own would not
+/// be compiled for the instruction set, and on Arm not at all.
 struct Candidates {
   Vector c[3];  ///< rows of the inverse covariance
   Vector arm;   ///< the point from the group's centre, map axes
-  Vector difference;
-  Vector pull;  ///< C times the difference
+  Vector pull;  ///< C times the point's difference from the mean
   V distance;   ///< squared, of Mahalanobis
   hn::Mask<Floats> is_pair;
 };
@@ -119,24 +114,23 @@ HWY_ATTR Candidates candidates(const PairColumns& columns, std::size_t i, std::s
   const auto set = [&](float value) HWY_ATTR { return hn::Set(d, value); };
   const auto& r = place.rotation;
   const auto& shape = columns.inverse_covariance_1pm2;
-  Candidates all;
   const V xy = load(shape[1]);
   const V xz = load(shape[2]);
   const V yz = load(shape[4]);
-  all.c[0] = {load(shape[0]), xy, xz};
-  all.c[1] = {xy, load(shape[3]), yz};
-  all.c[2] = {xz, yz, load(shape[5])};
+  const Vector c[3] = {{load(shape[0]), xy, xz}, {xy, load(shape[3]), yz}, {xz, yz, load(shape[5])}};
   const Vector p{load(columns.point_m[0]), load(columns.point_m[1]), load(columns.point_m[2])};
-  all.arm = {dot({set(r[0]), set(r[1]), set(r[2])}, p), dot({set(r[3]), set(r[4]), set(r[5])}, p),
-             dot({set(r[6]), set(r[7]), set(r[8])}, p)};
-  all.difference = {hn::Add(all.arm.x, hn::Sub(set(place.centre_m[0]), load(columns.mean_m[0]))),
-                    hn::Add(all.arm.y, hn::Sub(set(place.centre_m[1]), load(columns.mean_m[1]))),
-                    hn::Add(all.arm.z, hn::Sub(set(place.centre_m[2]), load(columns.mean_m[2])))};
-  all.pull = {dot(all.c[0], all.difference), dot(all.c[1], all.difference), dot(all.c[2], all.difference)};
-  all.distance = dot(all.difference, all.pull);
-  all.is_pair =
-      hn::And(hn::Le(dot(all.difference, all.difference), set(place.radius_m2)), hn::FirstN(d, count - i));
-  return all;
+  const Vector arm{dot({set(r[0]), set(r[1]), set(r[2])}, p), dot({set(r[3]), set(r[4]), set(r[5])}, p),
+                   dot({set(r[6]), set(r[7]), set(r[8])}, p)};
+  const Vector difference{hn::Add(arm.x, hn::Sub(set(place.centre_m[0]), load(columns.mean_m[0]))),
+                          hn::Add(arm.y, hn::Sub(set(place.centre_m[1]), load(columns.mean_m[1]))),
+                          hn::Add(arm.z, hn::Sub(set(place.centre_m[2]), load(columns.mean_m[2])))};
+  const Vector pull{dot(c[0], difference), dot(c[1], difference), dot(c[2], difference)};
+  return {.c = {c[0], c[1], c[2]},
+          .arm = arm,
+          .pull = pull,
+          .distance = dot(difference, pull),
+          .is_pair =
+              hn::And(hn::Le(dot(difference, difference), set(place.radius_m2)), hn::FirstN(d, count - i))};
 }
 
 HWY_ATTR void measure_pairs_simd(const PairColumns& columns, std::size_t count, const GroupPlace& place,
@@ -152,8 +146,8 @@ HWY_ATTR void measure_pairs_simd(const PairColumns& columns, std::size_t count, 
 HWY_ATTR void sum_pairs_simd(const PairColumns& columns, std::size_t count, const GroupPlace& place, float d1,
                              float d2, GroupSums& result) {
   const Floats d;
-  Sums sums;
-  for (V& sum : sums.at) sum = hn::Zero(d);
+  V sums[kGroupSumCount];  // in the order of GroupSums
+  for (V& sum : sums) sum = hn::Zero(d);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const Candidates all = candidates(columns, i, count, place);
     const V exponent = hn::Mul(hn::Set(d, -0.5F * d2), all.distance);
@@ -161,14 +155,14 @@ HWY_ATTR void sum_pairs_simd(const PairColumns& columns, std::size_t count, cons
     const V weight = hn::Mul(hn::Set(d, d2), score);
     const Vector turn = cross(all.arm, all.pull);
     const V u[6] = {all.pull.x, all.pull.y, all.pull.z, turn.x, turn.y, turn.z};
-    sums.at[0] = hn::Add(sums.at[0], hn::IfThenElseZero(all.is_pair, hn::Set(d, 1.0F)));
-    sums.at[1] = hn::Add(sums.at[1], score);
-    for (int k = 0; k < 6; ++k) sums.at[2 + k] = hn::NegMulAdd(weight, u[k], sums.at[2 + k]);
-    add_definite(sums.at + 8, all.c, all.arm, weight);
-    add_outer(sums.at + 29, u, hn::Mul(weight, hn::Set(d, d2)));
+    sums[0] = hn::Add(sums[0], hn::IfThenElseZero(all.is_pair, hn::Set(d, 1.0F)));
+    sums[1] = hn::Add(sums[1], score);
+    for (int k = 0; k < 6; ++k) sums[2 + k] = hn::NegMulAdd(weight, u[k], sums[2 + k]);
+    add_definite(sums + 8, all.c, all.arm, weight);
+    add_outer(sums + 29, u, hn::Mul(weight, hn::Set(d, d2)));
   }
   float totals[kGroupSumCount];
-  for (std::size_t k = 0; k < kGroupSumCount; ++k) totals[k] = hn::GetLane(hn::SumOfLanes(d, sums.at[k]));
+  for (std::size_t k = 0; k < kGroupSumCount; ++k) totals[k] = hn::GetLane(hn::SumOfLanes(d, sums[k]));
   std::memcpy(&result, totals, sizeof(result));
 }
 
