@@ -18,3 +18,12 @@ find_library(LZF_LIBRARY lzf REQUIRED)
 add_library(lzf INTERFACE IMPORTED)
 target_include_directories(lzf INTERFACE "${LZF_INCLUDE_DIR}")
 target_link_libraries(lzf INTERFACE "${LZF_LIBRARY}")
+
+# What `landfix benchmark --rival pcl` measures landfix against; its NDT is in headers alone. A sanitizer could not
+# look into the library.
+if(NOT LANDFIX_SANITIZE)
+  find_package(PCL 1.12 QUIET COMPONENTS common kdtree search filters)
+endif()
+if(NOT PCL_FOUND)
+  message(STATUS "Without PCL (libpcl-dev): `landfix benchmark --rival pcl` and the benchmarks beside ours are left out")
+endif()
