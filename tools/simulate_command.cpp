@@ -12,6 +12,7 @@
 #include "tools/command.hpp"
 #include "tools/landfix_commands.hpp"
 #include "tools/simulator/simulation.hpp"
+#include "tools/simulator/still_scans.hpp"
 
 namespace landfix::tools {
 namespace {
@@ -22,6 +23,7 @@ struct Arguments {
   std::string output;
   std::optional<std::uint64_t> seed;
   std::optional<double> length_m;
+  bool scans = false;
   bool json = false;
 };
 
@@ -39,10 +41,11 @@ std::unique_ptr<simulator::Drive> make_drive(const Arguments& arguments) {
 void simulate(const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   const std::unique_ptr<simulator::Drive> drive = make_drive(arguments);
-  const simulator::SimulationSummary summary =
-      simulator::write_drive(*drive, arguments.output, [](double share) {
-        show_progress(share < 1.0 ? fmt::format("simulating: {:3.0f} %", 100.0 * share) : "");
-      });
+  const auto progress = [](double share) {
+    show_progress(share < 1.0 ? fmt::format("simulating: {:3.0f} %", 100.0 * share) : "");
+  };
+  const simulator::SimulationSummary summary = simulator::write_drive(*drive, arguments.output, progress);
+  if (arguments.scans) simulator::write_still_scans(*drive, arguments.output, progress);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
 
   if (arguments.json) {
@@ -87,6 +90,9 @@ void add_simulate_command(CLI::App& app) {
       ->required();
   command->add_option("--seed", arguments->seed, "another world and other noise; by default the route's");
   command->add_option("--length", arguments->length_m, "metres to drive; by default the whole route");
+  command->add_flag("--scans", arguments->scans,
+                    "also what the sensor would see standing still at the end of each turn, in the vehicle's "
+                    "frame: scans/, and where that is: scans.tum");
   add_json_option(*command, arguments->json);
   command->callback([arguments] { simulate(*arguments); });
 }

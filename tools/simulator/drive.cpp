@@ -41,7 +41,9 @@ std::int64_t Drive::packet_utc_ns(std::size_t packet) const noexcept {
   return kDriveStart_utc_ns + static_cast<std::int64_t>(packet) * lidar_->traits().packet_ns;
 }
 
-std::vector<Echo> Drive::fire(std::size_t packet) const {
+/// `vehicle_at(time since the start of the drive [s])` gives map <- vehicle.
+template <class VehicleAt>
+std::vector<Echo> Drive::fire(std::size_t packet, const VehicleAt& vehicle_at) const {
   constexpr double kLongestCar_m = 6.0;
   const std::int64_t utc_ns = packet_utc_ns(packet);
   const double start_s = 1e-9 * static_cast<double>(utc_ns - kDriveStart_utc_ns);
@@ -49,9 +51,17 @@ std::vector<Echo> Drive::fire(std::size_t packet) const {
                                                         lidar_->traits().max_range_m + kLongestCar_m);
   const ndt::Pose mounting = kSensorMounting.pose();
   const auto sensor_at = [&](double after_s) -> ndt::Pose {
-    return vehicle_.pose_at(start_s + after_s) * mounting;
+    return vehicle_at(start_s + after_s) * mounting;
   };
   return fire_packet(scene_, *lidar_, sensor_at, cars, utc_ns, packet, {.seed = seed_});
+}
+
+std::vector<Echo> Drive::fire(std::size_t packet) const {
+  return fire(packet, [this](double time_s) { return vehicle_.pose_at(time_s); });
+}
+
+std::vector<Echo> Drive::fire_from(std::size_t packet, const ndt::Pose& vehicle) const {
+  return fire(packet, [&vehicle](double /*time_s*/) { return vehicle; });
 }
 
 }  // namespace landfix::tools::simulator

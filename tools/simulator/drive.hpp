@@ -41,8 +41,13 @@ class Drive {
   [[nodiscard]] std::int64_t packet_utc_ns(std::size_t packet) const noexcept;
   /// Whole packets from the start of the drive on; thread-safe.
   [[nodiscard]] std::vector<Echo> fire(std::size_t packet) const;
+  /// As if the vehicle stood at `vehicle` (map <- vehicle) meanwhile.
+  [[nodiscard]] std::vector<Echo> fire_from(std::size_t packet, const ndt::Pose& vehicle) const;
 
  private:
+  template <class VehicleAt>
+  [[nodiscard]] std::vector<Echo> fire(std::size_t packet, const VehicleAt& vehicle_at) const;
+
   std::unique_ptr<LidarModel> lidar_;
   Route route_;
   std::uint64_t seed_;
