@@ -1,60 +1,111 @@
-// What one sweep costs once it is decoded: thinned, then matched to the map.
+// What a map and each sweep cost: building, thinning, matching; PCL beside landfix where it is installed.
 #include <cstddef>
-#include <span>
+#include <cstdint>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
+#include "benchmark/benchmark_world.hpp"
 #include "ndt/matcher.hpp"
 #include "ndt/random_world.hpp"
 #include "ndt/voxel_grid.hpp"
+#include "tools/pcl_rival.hpp"
 
-namespace landfix::ndt {
+namespace landfix {
 namespace {
 
-constexpr std::size_t kSweepPoints = 29'000;  // a VLP-16's at 10 Hz
+using test::BenchmarkWorld;
+using tools::PclRival;
 
-/// A yard, its map at 1 m, and a sweep seen from the yard's middle.
-struct Yard {
-  std::vector<Eigen::Vector3d> cloud = test::random_yard(1, kSweepPoints);
-  MapImage image = test::build_map(cloud, 1.0);
-  VoxelMap map{image.bytes()};
-  std::vector<Eigen::Vector3f> sweep = test::seen_from(cloud, Pose::Identity());
-};
+constexpr double kResolution_m = BenchmarkWorld::kResolution_m;
 
-void thin(VoxelGrid& grid, std::span<const Eigen::Vector3f> sweep) {
-  grid.clear();
-  for (const Eigen::Vector3f& point_m : sweep) grid.add(point_m);
+void count_points(benchmark::State& state, std::size_t points) {
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points));
+  state.SetLabel("items are points");
 }
 
-void filter_sweep(benchmark::State& state) {
-  const Yard yard;
-  VoxelGrid grid(2.0, kSweepPoints);
+void filter_by_landfix(benchmark::State& state, const BenchmarkWorld& world, double leaf_m) {
+  ndt::VoxelGrid grid(leaf_m, world.scan_m.size());
   for ([[maybe_unused]] auto _ : state) {
-    thin(grid, yard.sweep);
+    grid.clear();
+    for (const Eigen::Vector3f& point_m : world.scan_m) grid.add(point_m);
     benchmark::DoNotOptimize(grid.finish().data());
   }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kSweepPoints));
+  count_points(state, world.scan_m.size());
 }
-BENCHMARK(filter_sweep)->Unit(benchmark::kMicrosecond);
 
-/// The argument is the guess's distance from the truth, in cm.
-void match_sweep(benchmark::State& state) {
-  const Yard yard;
-  VoxelGrid grid(2.0, kSweepPoints);
-  thin(grid, yard.sweep);
-  const auto points_m = grid.finish();
-  const Pose guess(Eigen::Translation3d(0.01 * static_cast<double>(state.range(0)), 0.0, 0.0));
-  Matcher matcher({});
-  MatchResult result;
+void filter_by_pcl(benchmark::State& state, const BenchmarkWorld& world, double leaf_m) {
+  PclRival pcl(kResolution_m, leaf_m);
+  pcl.set_scan(world.scan_m);
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(pcl.filter());
+  count_points(state, world.scan_m.size());
+}
+
+void build_by_landfix(benchmark::State& state, const BenchmarkWorld& world) {
+  for ([[maybe_unused]] auto _ : state)
+    benchmark::DoNotOptimize(ndt::test::build_map(world.surveyed_m, kResolution_m));
+  count_points(state, world.surveyed_m.size());
+}
+
+void build_by_pcl(benchmark::State& state, const BenchmarkWorld& world) {
+  PclRival pcl(kResolution_m, 2.0);
+  pcl.set_map(world.surveyed_m);
+  for ([[maybe_unused]] auto _ : state) pcl.build_map();
+  count_points(state, world.surveyed_m.size());
+}
+
+void count_iterations(benchmark::State& state, std::size_t points, int iterations) {
+  state.counters["points"] = static_cast<double>(points);
+  state.counters["steps"] = iterations;
+}
+
+void align_by_landfix(benchmark::State& state, const BenchmarkWorld& world, double leaf_m) {
+  const std::vector<Eigen::Vector3f> points_m = world.thinned(leaf_m);
+  ndt::Matcher matcher({}, points_m.size());
+  ndt::MatchResult result;
   for ([[maybe_unused]] auto _ : state) {
-    result = matcher.match(yard.map, points_m, guess);
+    result = matcher.match(world.map, points_m, world.guess);
     benchmark::DoNotOptimize(result);
   }
-  state.counters["points"] = static_cast<double>(points_m.size());
-  state.counters["iterations"] = result.iterations;
+  count_iterations(state, points_m.size(), result.iterations);
 }
-BENCHMARK(match_sweep)->Arg(5)->Arg(50)->Unit(benchmark::kMicrosecond);
+
+void align_by_pcl(benchmark::State& state, const BenchmarkWorld& world, double leaf_m) {
+  PclRival pcl(kResolution_m, leaf_m);
+  pcl.set_map(world.surveyed_m);
+  pcl.build_map();
+  pcl.set_scan(world.scan_m);
+  const std::size_t points = pcl.filter();
+  tools::Found found = pcl.match(world.guess);  // the first one builds a tree that it does not need
+  for ([[maybe_unused]] auto _ : state) {
+    found = pcl.match(world.guess);
+    benchmark::DoNotOptimize(found);
+  }
+  count_iterations(state, points, found.iterations);
+}
+
+[[maybe_unused]] const bool registered = [] {
+  const auto add = [](const std::string& name, auto function, auto... arguments) {
+    benchmark::RegisterBenchmark(name.c_str(), function, arguments...)->Unit(benchmark::kMicrosecond);
+  };
+  for (const BenchmarkWorld* const world : test::benchmark_worlds()) {
+    const auto at = std::cref(*world);
+    const std::string& name = world->name;
+    for (const double leaf_m : {2.0, 0.5}) {
+      add(fmt::format("filter/landfix/{}/leaf_{}", name, leaf_m), filter_by_landfix, at, leaf_m);
+      add(fmt::format("align/landfix/{}/leaf_{}", name, leaf_m), align_by_landfix, at, leaf_m);
+      if (!PclRival::available()) continue;
+      add(fmt::format("filter/pcl/{}/leaf_{}", name, leaf_m), filter_by_pcl, at, leaf_m);
+      add(fmt::format("align/pcl/{}/leaf_{}", name, leaf_m), align_by_pcl, at, leaf_m);
+    }
+    add("map_build/landfix/" + name, build_by_landfix, at);
+    if (PclRival::available()) add("map_build/pcl/" + name, build_by_pcl, at);
+  }
+  return true;
+}();
 
 }  // namespace
-}  // namespace landfix::ndt
+}  // namespace landfix
