@@ -1,12 +1,11 @@
 #include "platform/pcd_writer.hpp"
 
 #include <cstring>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
-
-#include "platform/atomic_file.hpp"
 
 namespace landfix::platform {
 namespace {
@@ -28,14 +27,35 @@ std::string header(std::span<const PcdMember> members, std::size_t points) {
       fields, sizes, types, counts, points, points);
 }
 
+std::size_t point_bytes(std::span<const PcdMember> members) {
+  std::size_t sum = 0;
+  for (const PcdMember& member : members) sum += member.size;
+  return sum;
+}
+
 }  // namespace
+
+PcdStream::PcdStream(const std::filesystem::path& path, std::span<const PcdMember> members,
+                     std::size_t points)
+    : file_(path), bytes_left_(points * point_bytes(members)) {
+  file_.write(header(members, points));
+}
+
+void PcdStream::write(std::span<const std::byte> packed) {
+  if (packed.size() > bytes_left_) throw std::logic_error("a point cloud has more points than announced");
+  bytes_left_ -= packed.size();
+  file_.write(packed);
+}
+
+void PcdStream::commit() {
+  if (bytes_left_ != 0) throw std::logic_error("a point cloud has fewer points than announced");
+  file_.commit();
+}
 
 void write_pcd_records(const std::filesystem::path& path, std::span<const PcdMember> members,
                        std::span<const std::byte> records, std::size_t record_size) {
   const std::size_t points = records.size() / record_size;
-  std::size_t point_size = 0;
-  for (const PcdMember& member : members) point_size += member.size;
-  std::vector<std::byte> packed(points * point_size);
+  std::vector<std::byte> packed(points * point_bytes(members));
   std::byte* to = packed.data();
   for (std::size_t i = 0; i < points; ++i) {
     for (const PcdMember& member : members) {
@@ -43,10 +63,9 @@ void write_pcd_records(const std::filesystem::path& path, std::span<const PcdMem
       to += member.size;
     }
   }
-  AtomicFile file(path);
-  file.write(header(members, points));
-  file.write(packed);
-  file.commit();
+  PcdStream cloud(path, members, points);
+  cloud.write(packed);
+  cloud.commit();
 }
 
 }  // namespace landfix::platform

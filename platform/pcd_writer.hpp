@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "drivers/point.hpp"
+#include "platform/atomic_file.hpp"
 
 namespace landfix::platform {
 
@@ -19,6 +20,21 @@ struct PcdMember {
   char type = 'F';         ///< F float, I signed, U unsigned
   std::uint8_t size = 4;   ///< bytes
   std::size_t offset = 0;  ///< in the record
+};
+
+/// A cloud too large for the memory: its number of points is known beforehand, the points come one by one.
+/// Throws std::runtime_error with the path and the reason.
+class PcdStream {
+ public:
+  PcdStream(const std::filesystem::path& path, std::span<const PcdMember> members, std::size_t points);
+  /// One point or several: their members in order, without gaps.
+  void write(std::span<const std::byte> packed);
+  /// Throws std::logic_error if there were more points or fewer.
+  void commit();
+
+ private:
+  AtomicFile file_;
+  std::size_t bytes_left_;
 };
 
 /// `records`: whole records of `record_size` bytes. Throws std::runtime_error with the path and the reason.

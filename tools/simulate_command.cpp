@@ -78,7 +78,8 @@ void add_simulate_command(CLI::App& app) {
       app.add_subcommand("simulate", "a drive with its capture, truth, surveyed map and configuration");
   command
       ->add_option("--route", arguments->route,
-                   fmt::format("{}, or a TOML file", fmt::join(simulator::route_names(), ", ")))
+                   fmt::format("{}, or a TOML file; those of config/routes explain the keys",
+                               fmt::join(simulator::route_names(), ", ")))
       ->required();
   command
       ->add_option("--sensor", arguments->sensor,
@@ -89,7 +90,8 @@ void add_simulate_command(CLI::App& app) {
                    "folder for capture.pcap, truth.tum, map.pcd, config.toml, calibration")
       ->required();
   command->add_option("--seed", arguments->seed, "another world and other noise; by default the route's");
-  command->add_option("--length", arguments->length_m, "metres to drive; by default the whole route");
+  command->add_option("--length", arguments->length_m,
+                      "metres to drive; by default the whole route. A city is surveyed whole");
   command->add_flag("--scans", arguments->scans,
                     "also what the sensor would see standing still at the end of each turn, in the vehicle's "
                     "frame: scans/, and where that is: scans.tum");

@@ -1,5 +1,9 @@
 #include "platform/pcd_writer.hpp"
 
+#include <array>
+#include <filesystem>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -44,6 +48,33 @@ TEST(PcdWriter, WritesAnEmptyCloud) {
   const auto path = directory.path() / "empty.pcd";
   write_pcd<drivers::Point>(path, kPointMembers, {});
   EXPECT_EQ(ndt::read_pcd_header(read_file(path), path.string()).points, 0U);
+}
+
+TEST(PcdStream, WritesWhatTheWholeCloudAtOnceWouldBe) {
+  const test::TemporaryDirectory directory;
+  const std::vector<std::array<float, 3>> points{{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}, {7.0F, 8.0F, 9.0F}};
+  write_pcd<std::array<float, 3>>(directory.path() / "whole.pcd", kPositionMembers, points);
+  PcdStream stream(directory.path() / "stream.pcd", kPositionMembers, points.size());
+  for (const auto& point : points) stream.write(std::as_bytes(std::span(point)));
+  stream.commit();
+  EXPECT_EQ(read_file(directory.path() / "stream.pcd"), read_file(directory.path() / "whole.pcd"));
+}
+
+TEST(PcdStream, LeavesNoFileWhoseHeaderIsWrong) {
+  const test::TemporaryDirectory directory;
+  const std::array<float, 3> point{1.0F, 2.0F, 3.0F};
+  const auto bytes = std::as_bytes(std::span(point));
+  {
+    PcdStream stream(directory.path() / "few.pcd", kPositionMembers, 2);
+    stream.write(bytes);
+    EXPECT_THROW(stream.commit(), std::logic_error);
+  }
+  {
+    PcdStream stream(directory.path() / "many.pcd", kPositionMembers, 1);
+    stream.write(bytes);
+    EXPECT_THROW(stream.write(bytes), std::logic_error);
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
 }
 
 TEST(PcdWriter, SaysWhereItCannotWrite) {

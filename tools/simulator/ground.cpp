@@ -58,7 +58,11 @@ Ground::Ground(const Path& path, const Route& route, std::vector<SideStreet> sid
   for (double s = path.first_station_m(); s <= path.last_station_m(); s += kCoarseSpacing_m) {
     coarse_.push_back(path.at(s));
   }
-  survey_land();
+  if (route.city) {
+    streets_.emplace(*route.city, road_);
+  } else {
+    survey_land();
+  }
 }
 
 double Ground::corridor_half_width_m() const noexcept {
@@ -99,8 +103,16 @@ double Ground::road_height_m(const PathPoint& point, double station_m, double ac
          unevenness_m(kRoadWaves, station_m, across_m, phase_rad_);
 }
 
+/// A city is level, and each of its streets has the road's profile.
+double Ground::street_height_m(const Eigen::Vector2d& xy_m) const noexcept {
+  return profile_m(0.0, streets_->distance_to_street_m(xy_m)) +
+         road_.cross_fall * std::abs(road_.centre_offset_m()) +
+         unevenness_m(kRoadWaves, xy_m.x(), xy_m.y(), phase_rad_);
+}
+
 double Ground::height_m(const RoadPosition& place) const noexcept {
   const PathPoint point = path_.at(place.station_m);
+  if (streets_) return street_height_m(point.position_m.head<2>() + place.offset_m * point.left());
   const double across_m = place.offset_m - road_.centre_offset_m();
   const double verge_m = std::abs(across_m) - road_.half_width_m() - road_.pavement_width_m;
   const double road_m = road_height_m(point, place.station_m, across_m);
@@ -110,6 +122,7 @@ double Ground::height_m(const RoadPosition& place) const noexcept {
 }
 
 double Ground::height_m(const Eigen::Vector2d& xy_m) const noexcept {
+  if (streets_) return street_height_m(xy_m);
   const RoadPosition place = project(xy_m);
   const double across_m = std::abs(place.offset_m - road_.centre_offset_m());
   return across_m < corridor_half_width_m() ? height_m(place) : land_height_m(xy_m);
@@ -122,14 +135,20 @@ Eigen::Vector3d Ground::point_m(const RoadPosition& place) const noexcept {
 }
 
 RoadPosition Ground::project(const Eigen::Vector2d& xy_m) const noexcept {
+  const auto distance_m = [&](std::size_t i) { return (coarse_[i].position_m.head<2>() - xy_m).norm(); };
+  // A rough search first: places whose distance cannot fall below it are passed over.
+  constexpr std::size_t kStride = 16;
+  double bound_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < coarse_.size(); i += kStride) bound_m = std::min(bound_m, distance_m(i));
   std::size_t nearest = 0;
-  double least_m2 = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < coarse_.size(); ++i) {
-    const double distance_m2 = (coarse_[i].position_m.head<2>() - xy_m).squaredNorm();
-    if (distance_m2 < least_m2) {
-      least_m2 = distance_m2;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < coarse_.size();) {
+    const double here_m = distance_m(i);
+    if (here_m < least_m) {
+      least_m = here_m;
       nearest = i;
     }
+    i += static_cast<std::size_t>(std::max(1.0, (here_m - bound_m) / kCoarseSpacing_m));
   }
   double station_m = path_.first_station_m() + kCoarseSpacing_m * static_cast<double>(nearest);
   for (int step = 0; step < 3; ++step) {  // Newton, curvature left out: it converges from 1 m
@@ -207,7 +226,17 @@ bool Ground::beyond_the_ends(const Eigen::Vector2d& xy_m) const noexcept {
 }
 
 double Ground::distance_to_road_m(const Eigen::Vector2d& xy_m) const noexcept {
+  if (streets_) return streets_->distance_to_street_m(xy_m);
   return std::abs(project(xy_m).offset_m - road_.centre_offset_m());
+}
+
+double Ground::distance_to_drive_m(const Eigen::Vector2d& xy_m, double margin_m) const noexcept {
+  if (streets_) return streets_->distance_to_street_m(xy_m);
+  const RoadPosition place = project(xy_m);
+  if (place.station_m < -margin_m || place.station_m > path_.length_m() + margin_m) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return std::abs(place.offset_m - road_.centre_offset_m());
 }
 
 Place Ground::vehicle_place(const RoadPosition& place, double turn_rad) const noexcept {

@@ -1,8 +1,9 @@
-// The ground: a road with cross-fall and kerbs, pavements, verges, and the land around, none of it quite
-// flat.
+// The ground: a road with cross-fall and kerbs, pavements, verges, and the land around, or a city's streets
+// and blocks; none of it quite flat.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -10,6 +11,7 @@
 #include "tools/simulator/mesh.hpp"
 #include "tools/simulator/path.hpp"
 #include "tools/simulator/route.hpp"
+#include "tools/simulator/street_grid.hpp"
 
 namespace landfix::tools::simulator {
 
@@ -34,6 +36,8 @@ class Ground {
   [[nodiscard]] const Path& path() const noexcept { return path_; }
   [[nodiscard]] const RoadProfile& road() const noexcept { return road_; }
   [[nodiscard]] const std::vector<SideStreet>& side_streets() const noexcept { return side_streets_; }
+  /// In a city all of the ground.
+  [[nodiscard]] const std::optional<StreetGrid>& streets() const noexcept { return streets_; }
   /// Distance from the middle of the road to where its cross-section ends and the land begins.
   [[nodiscard]] double corridor_half_width_m() const noexcept;
 
@@ -44,8 +48,11 @@ class Ground {
 
   /// The nearest place on the line.
   [[nodiscard]] RoadPosition project(const Eigen::Vector2d& xy_m) const noexcept;
-  /// From the middle of the road.
+  /// From the middle of the road; in a city, of the nearest street.
   [[nodiscard]] double distance_to_road_m(const Eigen::Vector2d& xy_m) const noexcept;
+  /// The same; infinity where the nearest place on the road is more than `margin_m` before the start of the
+  /// drive or after its end. In a city all streets count.
+  [[nodiscard]] double distance_to_drive_m(const Eigen::Vector2d& xy_m, double margin_m) const noexcept;
   [[nodiscard]] bool in_side_street(double station_m, bool left, double margin_m) const noexcept;
 
   /// A vehicle at rest: origin on the ground between the rear wheels, x towards the front axle, tilted as the
@@ -68,16 +75,19 @@ class Ground {
   [[nodiscard]] double kerb_m(double station_m, bool left) const noexcept;
   [[nodiscard]] double road_height_m(const PathPoint& point, double station_m,
                                      double across_m) const noexcept;
+  [[nodiscard]] double street_height_m(const Eigen::Vector2d& xy_m) const noexcept;
   [[nodiscard]] double land_height_m(const Eigen::Vector2d& xy_m) const noexcept;
   [[nodiscard]] Eigen::Vector2d land_node_m(std::size_t column, std::size_t row) const noexcept;
   [[nodiscard]] bool beyond_the_ends(const Eigen::Vector2d& xy_m) const noexcept;
   void survey_land();
   void add_road(Mesh& mesh) const;
   void add_land(Mesh& mesh) const;
+  void add_streets(Mesh& mesh) const;
 
   const Path& path_;
   RoadProfile road_;
   LandProfile land_profile_;
+  std::optional<StreetGrid> streets_;
   std::vector<SideStreet> side_streets_;
   double phase_rad_;  ///< of the unevenness, so that each seed has its own
   std::vector<PathPoint> coarse_;

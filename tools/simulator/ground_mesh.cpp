@@ -81,6 +81,10 @@ void Ground::add_land(Mesh& mesh) const {
 
 Mesh Ground::mesh() const {
   Mesh mesh;
+  if (streets_) {
+    add_streets(mesh);
+    return mesh;
+  }
   add_road(mesh);
   if (land_profile_.reach_m > 0.0) add_land(mesh);
   return mesh;

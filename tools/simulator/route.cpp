@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kShortestDrive_m = 20.0;
 constexpr double kClosestNiches_m = 10.0;
+constexpr double kSmallestYard_m = 25.0;     // from the pavement to a block's middle
 constexpr double kLongestRoute_m = 5'000.0;  // the work of surveying the land around grows with its cube
 
 RoadProfile read_road(TableReader reader) {
@@ -83,6 +84,23 @@ Tunnel read_tunnel(TableReader reader) {
   return tunnel;
 }
 
+City read_city(TableReader reader, const RoadProfile& road) {
+  City city;
+  city.side_m = reader.number("side_m", city.side_m, {100.0, 2'000.0});
+  city.columns = reader.integer("columns", city.columns, 1, 40);
+  city.rows = reader.integer("rows", city.rows, 1, 40);
+  city.west_m = reader.number("west_m", {-2'000.0, 2'000.0});
+  city.south_m = reader.number("south_m", {-2'000.0, 2'000.0});
+  reader.refuse_unknown_keys();
+  const double block_m =
+      city.side_m / static_cast<double>(std::max(city.columns, city.rows)) - 2.0 * road.half_width_m();
+  const double least_m = 2.0 * (road.pavement_width_m + kSmallestYard_m);
+  if (block_m < least_m) {
+    reader.fail(fmt::format("the blocks are {:.1f} m long or wide; houses need {:.1f} m", block_m, least_m));
+  }
+  return city;
+}
+
 RouteSegment read_segment(TableReader reader, double sharpest_1pm) {
   RouteSegment segment;
   segment.length_m = reader.number("length_m", {1.0, kLongestRoute_m});
@@ -96,15 +114,18 @@ RouteSegment read_segment(TableReader reader, double sharpest_1pm) {
   segment.speed_mps = reader.number("speed_kmh", {3.0, 130.0}) / 3.6;
   reader.refuse_unknown_keys();
   if (std::abs(segment.curvature_1pm) > sharpest_1pm) {
-    reader.fail(fmt::format("this turn has a radius of {:.1f} m, the road with its verges needs {:.1f} m",
+    reader.fail(fmt::format("this turn has a radius of {:.1f} m, it needs {:.1f} m",
                             1.0 / std::abs(segment.curvature_1pm), 1.0 / sharpest_1pm));
   }
   return segment;
 }
 
-/// Where the inner verge of a curve would fold onto itself.
-double sharpest_curvature_1pm(const RoadProfile& road) {
+/// Where the inner verge of a curve would fold onto itself; where there is none, what a car can turn.
+double sharpest_curvature_1pm(const Route& route) {
   constexpr double kVergeAndMargin_m = 8.0;
+  constexpr double kTurningRadius_m = 6.0;
+  if (route.city) return 1.0 / kTurningRadius_m;
+  const RoadProfile& road = route.road;
   return 1.0 /
          (road.half_width_m() + road.pavement_width_m + std::abs(road.centre_offset_m()) + kVergeAndMargin_m);
 }
@@ -135,8 +156,12 @@ Route parse_route(std::string_view text, const std::string& file) {
   if (auto part = reader.optional_table("land")) route.land = read_land(std::move(*part));
   if (auto part = reader.optional_table("survey")) route.survey = read_survey(std::move(*part));
   if (auto part = reader.optional_table("tunnel")) route.tunnel = read_tunnel(std::move(*part));
+  if (auto part = reader.optional_table("city")) route.city = read_city(std::move(*part), route.road);
+  if (route.city && (route.tunnel || reader.has("land"))) {
+    reader.fail("city", "a [city] fills its square: beside it there is no [tunnel] and no [land]");
+  }
   for (TableReader& segment : reader.tables("segment")) {
-    route.segments.push_back(read_segment(std::move(segment), sharpest_curvature_1pm(route.road)));
+    route.segments.push_back(read_segment(std::move(segment), sharpest_curvature_1pm(route)));
   }
   reader.refuse_unknown_keys();
   if (route.length_m() < kShortestDrive_m || route.length_m() > kLongestRoute_m) {

@@ -1,4 +1,4 @@
-// A route: the road that the vehicle drives and what stands beside it, read from a TOML file.
+// A route: the road that the vehicle drives and what surrounds it, read from a TOML file.
 #pragma once
 
 #include <cstdint>
@@ -68,6 +68,18 @@ struct Tunnel {
   double niche_spacing_m = 0.0;  ///< of the emergency niches in the right wall; 0: none
 };
 
+/// A square full of streets, each with the road's profile, and blocks of houses. Its edges are the middles of
+/// streets.
+struct City {
+  double side_m = 1'000.0;
+  std::int64_t columns = 8;  ///< of blocks, along the map's x axis
+  std::int64_t rows = 10;
+  double west_m = 0.0;  ///< the south-western corner; the drive begins at the map's origin
+  double south_m = 0.0;
+};
+/// The rounding of a kerb at a crossing has a radius this much longer than the pavement is wide.
+inline constexpr double kCornerBeyondPavement_m = 3.0;
+
 struct Route {
   std::string name;
   std::uint64_t seed = 1;
@@ -77,6 +89,7 @@ struct Route {
   LandProfile land;
   SurveyPlan survey;
   std::optional<Tunnel> tunnel;
+  std::optional<City> city;
   std::vector<RouteSegment> segments;
 
   [[nodiscard]] double length_m() const noexcept;

@@ -117,6 +117,19 @@ void write_truth(const Drive& drive, const std::filesystem::path& path) {
   platform::write_tum(path, truth);
 }
 
+/// Surveyed twice, since a cloud's header tells how many points follow: a city's would fill the memory.
+std::size_t write_map(const Drive& drive, const std::filesystem::path& path) {
+  const auto visit = [&drive](const std::function<void(const Eigen::Vector3f&)>& take) {
+    survey(drive.world().surveyed, drive.ground(), drive.route().survey, drive.seed(), take);
+  };
+  std::size_t points = 0;
+  visit([&points](const Eigen::Vector3f&) { ++points; });
+  platform::PcdStream cloud(path, platform::kPositionMembers, points);
+  visit([&cloud](const Eigen::Vector3f& point_m) { cloud.write(std::as_bytes(std::span(&point_m, 1))); });
+  cloud.commit();
+  return points;
+}
+
 void write_config(const Drive& drive, const std::filesystem::path& path) {
   const SensorMounting& mounting = kSensorMounting;
   const ndt::Pose start = drive.vehicle().pose_at(0.0);
@@ -149,11 +162,7 @@ SimulationSummary write_drive(const Drive& drive, const std::filesystem::path& f
   SimulationSummary summary{.length_m = drive.route().length_m(), .duration_s = drive.vehicle().duration_s()};
   write_capture(drive, folder / "capture.pcap", progress, summary);
   write_truth(drive, folder / "truth.tum");
-  const std::vector<Eigen::Vector3f> map =
-      survey(drive.world().surveyed, drive.ground(), drive.route().survey, drive.seed());
-  summary.map_points = map.size();
-  platform::write_pcd_records(folder / "map.pcd", platform::kPositionMembers, std::as_bytes(std::span(map)),
-                              sizeof(Eigen::Vector3f));
+  summary.map_points = write_map(drive, folder / "map.pcd");
   write_config(drive, folder / "config.toml");
   if (const auto calibration = drive.lidar().calibration()) {
     platform::AtomicFile file(folder / calibration->name);

@@ -6,6 +6,7 @@
 
 #include "tools/simulator/building.hpp"
 #include "tools/simulator/car_model.hpp"
+#include "tools/simulator/city.hpp"
 #include "tools/simulator/footprint.hpp"
 #include "tools/simulator/random.hpp"
 #include "tools/simulator/street_furniture.hpp"
@@ -25,6 +26,19 @@ class WorldBuilder {
     const Scenery& scenery = route_.scenery;
     world_.surveyed = ground_.mesh();
     if (route_.tunnel) add_tunnel(world_.surveyed, ground_, *route_.tunnel);
+    if (ground_.streets()) {
+      add_city(world_.surveyed, world_.parked, ground_, scenery, random_);
+    } else {
+      add_roadside(scenery);
+    }
+    if (scenery.moving_cars > 0.0) add_traffic(scenery.moving_cars);
+    return std::move(world_);
+  }
+
+ private:
+  using AddAt = void (WorldBuilder::*)(double station_m, bool left);
+
+  void add_roadside(const Scenery& scenery) {
     along_both_sides(scenery.buildings, &WorldBuilder::add_building_at);
     along_both_sides(scenery.boundaries, &WorldBuilder::add_boundary_at);
     along_both_sides(scenery.poles, &WorldBuilder::add_lamp_at);
@@ -33,12 +47,7 @@ class WorldBuilder {
     if (route_.road.parking_width_m > 1.5) {
       along_both_sides(scenery.parked_cars, &WorldBuilder::park_car_at);
     }
-    if (scenery.moving_cars > 0.0) add_traffic(scenery.moving_cars);
-    return std::move(world_);
   }
-
- private:
-  using AddAt = void (WorldBuilder::*)(double station_m, bool left);
 
   void along_both_sides(double per_100m, AddAt add) {
     if (per_100m <= 0.0) return;
@@ -228,7 +237,7 @@ World build_world(const Route& route, const Ground& ground, std::uint64_t seed) 
 
 std::vector<SideStreet> plan_side_streets(const Route& route, const Path& path, std::uint64_t seed) {
   std::vector<SideStreet> streets;
-  if (route.scenery.side_streets <= 0.0) return streets;
+  if (route.city || route.scenery.side_streets <= 0.0) return streets;
   Random random(mix_bits(seed), RandomStream::world);
   const double spacing_m = 100.0 / route.scenery.side_streets;
   for (double s = path.first_station_m(); s < path.last_station_m(); s += spacing_m) {

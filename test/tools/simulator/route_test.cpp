@@ -30,6 +30,7 @@ TEST(Route, NamedRoutesHaveTheLengthsAndSpeedsTheyAreKnownBy) {
   EXPECT_DOUBLE_EQ(load_route("street").length_m(), 300.0);
   EXPECT_DOUBLE_EQ(load_route("tunnel").length_m(), 400.0);
   EXPECT_DOUBLE_EQ(load_route("field").length_m(), 300.0);
+  EXPECT_DOUBLE_EQ(load_route("city").length_m(), 1347.0);
   EXPECT_EQ(load_route("B").road.lanes, 4);
 }
 
@@ -90,6 +91,15 @@ TEST(Route, MistakesInTheOptionalTablesAreNamedWithLineAndColumn) {
               ThrowsMessage<std::runtime_error>(HasSubstr("my.toml:4:1: unknown key 'wall_height'")));
   EXPECT_THAT(with_table("[tunnel]\nniche_spacing_m = 1.0"),
               ThrowsMessage<std::runtime_error>(HasSubstr("my.toml:4:19: niche_spacing_m must be 0 (none)")));
+  EXPECT_THAT(with_table("[city]\nwest_m = 0\nsouth_m = 0\ncolumns = 0"),
+              ThrowsMessage<std::runtime_error>(HasSubstr("my.toml:6:11: columns must be a whole number")));
+  EXPECT_THAT(with_table("[city]\nwest_m = 0"),
+              ThrowsMessage<std::runtime_error>(HasSubstr("my.toml:3:1: 'south_m' is missing here")));
+  EXPECT_THAT(
+      with_table("[city]\nwest_m = 0\nsouth_m = 0\nrows = 40"),
+      ThrowsMessage<std::runtime_error>(HasSubstr("my.toml:3:1: the blocks are 18.5 m long or wide")));
+  EXPECT_THAT(with_table("[city]\nwest_m = 0\nsouth_m = 0\n[tunnel]"),
+              ThrowsMessage<std::runtime_error>(HasSubstr("my.toml:3:1: a [city] fills its square")));
 }
 
 TEST(Route, ATunnelThatIsNoTableIsNamedWithItsPlace) {
@@ -106,7 +116,7 @@ TEST(Route, IsReadFromAFile) {
 
 TEST(Route, AnUnknownNameListsTheKnownOnes) {
   EXPECT_THAT([] { (void)load_route("Z"); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("A, B, C, field, street, tunnel")));
+              ThrowsMessage<std::invalid_argument>(HasSubstr("A, B, C, city, field, street, tunnel")));
 }
 
 TEST(Route, CanBeShortenedButNotStretched) {

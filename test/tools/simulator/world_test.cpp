@@ -1,5 +1,6 @@
 #include "tools/simulator/world.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -99,6 +100,23 @@ TEST_F(WorldTest, NothingStandsOnTheLanes) {
       const Eigen::Vector3d to_m = drive_.ground().point_m({s + 5.0, offset_m}) + Eigen::Vector3d(0, 0, 0.5);
       const Ray ray{from_m, (to_m - from_m).normalized(), (to_m - from_m).norm()};
       ASSERT_FALSE(scene.cast(ray, {}, 0.0)) << s << ' ' << offset_m;
+    }
+  }
+}
+
+TEST(Ground, FindsTheNearestPlaceOnARoadThatWinds) {
+  const Route route = load_route("A");
+  const Path path(route);
+  const Ground ground(path, route, {}, route.seed);
+  for (double x_m = -150.0; x_m < 450.0; x_m += 17.3) {
+    for (double y_m = -150.0; y_m < 550.0; y_m += 19.1) {
+      const Eigen::Vector2d xy_m(x_m, y_m);
+      double least_m = 1e9;
+      for (double s = path.first_station_m(); s <= path.last_station_m(); s += 0.5) {
+        least_m = std::min(least_m, (path.at(s).position_m.head<2>() - xy_m).norm());
+      }
+      if (least_m > 35.0) continue;  // farther away a place inside a curve has no single nearest one
+      ASSERT_NEAR(std::abs(ground.project(xy_m).offset_m), least_m, 0.1) << x_m << ' ' << y_m;
     }
   }
 }
