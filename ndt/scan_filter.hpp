@@ -38,6 +38,8 @@ class ScanFilter {
   void clear() noexcept { grid_.clear(); }
   /// `ring`: 0 where it is not known.
   void add(const Eigen::Vector3f& point_m, std::uint16_t ring) noexcept { grid_.add(point_m, ring); }
+  /// The same for many at once. `rings`: one for each point, or none.
+  void add(std::span<const Eigen::Vector3f> points_m, std::span<const std::uint16_t> rings) noexcept;
   /// Neighbours in space near each other in memory. The caller may move the points; they are valid until the
   /// next `finish`.
   [[nodiscard]] std::span<Eigen::Vector3f> finish() noexcept;
@@ -50,8 +52,7 @@ class ScanFilter {
 
   FilterSettings settings_;
   VoxelGrid grid_;
-  std::vector<float> entropies_;
-  std::vector<float> sorted_;
+  std::vector<float> known_;
 };
 
 }  // namespace landfix::ndt

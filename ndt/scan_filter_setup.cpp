@@ -8,7 +8,6 @@ ScanFilter::ScanFilter(const FilterSettings& settings, std::size_t capacity)
       grid_(settings.leaf_m, capacity,
             {.by_ring = settings.kind == FilterKind::ring,
              .with_entropy = settings.kind == FilterKind::entropy}),
-      entropies_(settings.kind == FilterKind::entropy ? capacity : 0),
-      sorted_(entropies_.size()) {}
+      known_(settings.kind == FilterKind::entropy ? capacity : 0) {}
 
 }  // namespace landfix::ndt

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 
 namespace landfix::ndt {
@@ -37,9 +38,10 @@ void sort_by_code(std::span<SpatialKey> keys, std::span<SpatialKey> scratch) noe
   const std::uint64_t differing = all_or & ~all_and;
   std::span<SpatialKey> from = keys;
   std::span<SpatialKey> to = scratch.first(keys.size());
-  // From the lowest byte up; each pass keeps the order of the one before.
-  for (unsigned shift = 0; shift < 64; shift += kDigitBits) {
-    if ((differing >> shift & kDigitMask) == 0) continue;
+  // From the lowest bits up; each pass keeps the order of the one before.
+  for (std::uint64_t rest = differing; rest != 0;) {
+    const int shift = std::countr_zero(rest);
+    rest &= ~(kDigitMask << shift);
     const auto digit = [shift](const SpatialKey& key) { return key.code >> shift & kDigitMask; };
     std::array<std::uint32_t, kDigitMask + 1> starts{};
     for (const SpatialKey& key : from) ++starts[digit(key)];

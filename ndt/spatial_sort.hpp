@@ -15,7 +15,7 @@ struct SpatialKey {
 [[nodiscard]] std::uint64_t morton_code(std::uint64_t i, std::uint64_t j, std::uint64_t k) noexcept;
 
 /// Sorts by code; equal codes keep their order. `scratch`: as large as `keys`. Time is linear in both sizes:
-/// one pass for each byte in which the codes differ.
+/// one pass for each 11 bits in which the codes differ.
 void sort_by_code(std::span<SpatialKey> keys, std::span<SpatialKey> scratch) noexcept;
 
 }  // namespace landfix::ndt

@@ -17,6 +17,26 @@ constexpr std::uint32_t kMostRings = (1U << (kSpareBits - 1)) - 1;
 /// Blocks are read in another order than written: each is fetched while so many before it are read.
 constexpr std::size_t kBlocksAhead = 6;
 
+/// In units of the leaf; the fourth numbers are nothing.
+struct Centroid {
+  Eigen::Array4f lower;  ///< corner of the cell
+  Eigen::Array4f place;  ///< of the points' mean, from there
+};
+
+[[nodiscard]] Centroid centroid_of(std::uint64_t key, std::uint32_t cell, const CellSum& sum) noexcept {
+  const auto along = [&](int axis) { return 2 * block_index(key, axis) + (cell >> (2 - axis) & 1U); };
+  const std::array<std::uint32_t, 3> lower{along(0), along(1), along(2)};
+  const std::uint32_t points = sum[3];
+  // What the index adds to each point's coordinate taken off again; below 2^31, as kMostPointsOfCell sees to.
+  const auto places = [&](std::size_t axis) {
+    return static_cast<std::int32_t>(sum[axis] - points * (lower[axis] << kPlaceBits));
+  };
+  const auto unbiased = [&](std::size_t axis) { return static_cast<std::int32_t>(lower[axis]) - kIndexBias; };
+  const float to_cells = 1.0F / (static_cast<float>(static_cast<std::int32_t>(points)) * (1 << kPlaceBits));
+  return {.lower = Eigen::Array4i(unbiased(0), unbiased(1), unbiased(2), 0).cast<float>(),
+          .place = to_cells * Eigen::Array4i(places(0), places(1), places(2), 0).cast<float>()};
+}
+
 }  // namespace
 
 void VoxelGrid::clear() noexcept {
@@ -112,19 +132,19 @@ std::span<Eigen::Vector3f> VoxelGrid::finish() noexcept {
   const std::span<const std::uint32_t> cells = list_cells();
   std::size_t points = 0;
   for (std::size_t n = 0; n < cells.size(); ++n) {
-    const Centroid at = centroid(cells[n]);
-    centroids_[n] = (leaf_m_ * (at.lower + at.place)).cast<float>();
-    points += at.points;
+    const std::uint32_t block = cells[n] / 8;
+    const std::uint32_t cell = cells[n] % 8;
+    const CellSum& sum = blocks_[block][cell];
+    const Centroid at = centroid_of(keys_[block], cell, sum);
+    centroids_[n] = (static_cast<float>(leaf_m_) * (at.lower + at.place)).head<3>();
+    points += sum[3];
+    if (options_.with_entropy) {
+      const Eigen::Vector3d mean_place = at.place.head<3>().cast<double>();
+      entropies_[n] = entropy_of(moments_[block][cell], mean_place, sum[3], leaf_m_);
+    }
   }
   dropped_points_ = points_ - points;
   return std::span(centroids_).first(cells.size());
-}
-
-void VoxelGrid::entropies(std::span<float> values) const noexcept {
-  for (std::size_t n = 0; n < values.size(); ++n) {
-    const Centroid at = centroid(cells_[n]);
-    values[n] = entropy_of(moments_[cells_[n] / 8][cells_[n] % 8], at.place, at.points, leaf_m_);
-  }
 }
 
 std::span<const std::uint32_t> VoxelGrid::list_cells() noexcept {
@@ -164,23 +184,6 @@ std::span<const SpatialKey> VoxelGrid::sort_blocks() noexcept {
   }
   sort_by_code(order, std::span(order_).last(order.size()));
   return order;
-}
-
-/// `index`: as in cells_.
-VoxelGrid::Centroid VoxelGrid::centroid(std::uint32_t index) const noexcept {
-  const std::uint32_t cell = index % 8;
-  const std::uint64_t key = keys_[index / 8];
-  const CellSum& sum = blocks_[index / 8][cell];
-  const std::uint32_t points = sum[3];
-  const double to_cells = 1.0 / (static_cast<double>(points) * (1 << kPlaceBits));
-  Centroid at{.lower = Eigen::Vector3d::Zero(), .place = Eigen::Vector3d::Zero(), .points = points};
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::uint32_t along = 2 * block_index(key, axis) + (cell >> (2 - axis) & 1U);
-    const std::uint32_t places = sum[static_cast<std::size_t>(axis)] - points * (along << kPlaceBits);
-    at.lower[axis] = static_cast<std::int32_t>(along) - kIndexBias;
-    at.place[axis] = places * to_cells;
-  }
-  return at;
 }
 
 }  // namespace landfix::ndt

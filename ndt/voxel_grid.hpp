@@ -41,25 +41,19 @@ class VoxelGrid {
   /// are valid until the next `finish`.
   [[nodiscard]] std::span<Eigen::Vector3f> finish() noexcept;
 
-  /// Of each centroid that `finish` has given, in its order and before `clear`: see entropy_of.
-  void entropies(std::span<float> values) const noexcept;
+  /// Of the cell of each centroid that `finish` has given, in their order: see entropy_of.
+  [[nodiscard]] std::span<const float> entropies() const noexcept { return entropies_; }
 
   /// Points since `clear` that are in no centroid; known once `finish` has run.
   [[nodiscard]] std::size_t dropped_points() const noexcept { return dropped_points_; }
 
   /// More would overflow a cell's sum: such a cell is left out.
-  static constexpr std::uint32_t kMostPointsOfCell = 1U << (32 - kPlaceBits);
+  static constexpr std::uint32_t kMostPointsOfCell = 1U << (31 - kPlaceBits);
 
  private:
   using Points = std::array<Eigen::Vector3f, kCellBatch>;
   using Rings = std::array<std::uint16_t, kCellBatch>;
   using Block = std::array<CellSum, 8>;
-  /// The mean of a cell's points, in units of the leaf.
-  struct Centroid {
-    Eigen::Vector3d lower;  ///< corner of the cell
-    Eigen::Vector3d place;  ///< from there
-    std::uint32_t points;
-  };
   using BlockMoments = std::array<CellMoments, 8>;
   static constexpr std::uint32_t kNoRoom = 0;  ///< index of the block for points that find none
 
@@ -71,7 +65,6 @@ class VoxelGrid {
   [[nodiscard]] std::uint32_t find_or_open(std::uint64_t key, std::uint32_t hash) noexcept;
   [[nodiscard]] std::span<const std::uint32_t> list_cells() noexcept;
   [[nodiscard]] std::span<const SpatialKey> sort_blocks() noexcept;
-  [[nodiscard]] Centroid centroid(std::uint32_t index) const noexcept;
 
   double leaf_m_;
   GridOptions options_;
@@ -92,6 +85,7 @@ class VoxelGrid {
   std::vector<std::uint32_t>
       cells_;  ///< that have points, in order: 8 times the block, and which of its cells
   std::vector<Eigen::Vector3f> centroids_;
+  std::vector<float> entropies_;
 };
 
 }  // namespace landfix::ndt

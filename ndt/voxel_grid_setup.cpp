@@ -17,7 +17,8 @@ VoxelGrid::VoxelGrid(double leaf_m, std::size_t capacity, const GridOptions& opt
       table_(std::bit_ceil(4 * std::max<std::size_t>(capacity, 4))),
       order_(2 * capacity),
       cells_(8 * capacity + 1),
-      centroids_(capacity) {
+      centroids_(capacity),
+      entropies_(options.with_entropy ? capacity : 0) {
   keys_[kNoRoom] = ~std::uint64_t{0};  // no block's: its lowest bits are not 0
   pending_.fill(Eigen::Vector3f::Zero());
 }

@@ -90,9 +90,8 @@ void align(const Arguments& arguments) {
         fmt::format("{}: no point between {} m and {} m of the origin; see --min-range, --max-range",
                     arguments.scan, arguments.limits.min_m, arguments.limits.max_m));
   }
-  const auto rings = elevation_steps(scan);
   ndt::ScanFilter filter(arguments.filter, scan.size());
-  for (std::size_t i = 0; i < scan.size(); ++i) filter.add(scan[i], rings[i]);
+  filter.add(scan, elevation_steps(scan));
   const auto points_m = filter.finish();
 
   ndt::Matcher matcher({}, points_m.size());

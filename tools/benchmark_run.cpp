@@ -62,7 +62,7 @@ class Landfix {
 
   std::size_t filter() {
     filter_.clear();
-    for (std::size_t i = 0; i < scan_m_.size(); ++i) filter_.add(scan_m_[i], rings_[i]);
+    filter_.add(scan_m_, rings_);
     filtered_m_ = filter_.finish();
     return filtered_m_.size();
   }

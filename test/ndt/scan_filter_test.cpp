@@ -128,11 +128,9 @@ TEST(ScanFilter, EntropyIsThatOfTheNormalDistribution) {
     grid.add(p.cast<float>());
   }
   ASSERT_EQ(grid.finish().size(), 1U);
-  std::array<float, 1> entropy{};
-  grid.entropies(entropy);
   // THEN its entropy is that of the distribution, 2 cm of range noise added
   const auto term = [](double sigma_m) { return std::log(2.0 * M_PI * M_E * (sigma_m * sigma_m + 4e-4)); };
-  EXPECT_NEAR(entropy[0], 0.5 * (term(0.1) + term(0.2) + term(0.05)), 0.02);
+  EXPECT_NEAR(grid.entropies()[0], 0.5 * (term(0.1) + term(0.2) + term(0.05)), 0.02);
 }
 
 TEST(ScanFilter, EntropyIsUnknownOfFewPoints) {
@@ -159,6 +157,22 @@ TEST_P(EveryFilter, DoesNotDependOnTheOrderOfThePoints) {
     EXPECT_EQ(filtered(filter, scan), expected);
     EXPECT_EQ(filter.dropped_points(), 1U);
   }
+}
+
+TEST_P(EveryFilter, TakesManyPointsAtOnceAsOneByOne) {
+  const auto scan = random_scan(9, 5000);
+  std::vector<Eigen::Vector3f> points_m;
+  std::vector<std::uint16_t> rings;
+  for (const RingPoint& p : scan) {
+    points_m.push_back(p.point_m);
+    rings.push_back(p.ring);
+  }
+  ScanFilter filter({.kind = GetParam(), .leaf_m = 4.0}, 5000);
+  const auto expected = filtered(filter, scan);
+  filter.clear();
+  filter.add(points_m, rings);
+  const auto at_once = filter.finish();
+  EXPECT_TRUE(std::equal(at_once.begin(), at_once.end(), expected.begin(), expected.end()));
 }
 
 TEST_P(EveryFilter, GivesNoMoreThanItsCapacityAndCountsTheRest) {

@@ -8,14 +8,17 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "ndt/map_file.hpp"
+#include "ndt/scan_filter.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/candump_log.hpp"
 #include "platform/e2e.hpp"
@@ -103,6 +106,29 @@ TEST_F(SimulatedDrive, MakesNoHeapCallFromPacketToPose) {
   const nlohmann::json calls = replay_against_truth({"--candump", path("heap.log")})["heap_calls"];
   if (calls.is_null()) GTEST_SKIP() << "heap calls cannot be counted under a sanitizer";
   EXPECT_EQ(calls, 0);
+}
+
+TEST_F(SimulatedDrive, IsFollowedWithEveryFilterAndNoHeapCall) {
+  const std::string config = text_of(path("config.toml"));
+  const std::string section = "[filter]\n";
+  const std::size_t place = config.find(section) + section.size();
+  std::vector<double> points;
+  for (const std::string_view kind : ndt::kFilterNames) {
+    const std::string name = path(fmt::format("{}.toml", kind));
+    std::ofstream(name) << std::string(config).insert(place, fmt::format("kind = \"{}\"\n", kind));
+    const Outcome outcome = landfix({"replay", "--config", name, "--truth", path("truth.tum"), "--json"});
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    const nlohmann::json report = nlohmann::json::parse(outcome.out);
+    EXPECT_LE(report["evaluation"]["ate_m"]["rmse"], 0.05) << kind;
+    EXPECT_EQ(report["lost"], 0) << kind;
+    EXPECT_EQ(report["points_dropped"]["filter_full_or_not_finite"], 0) << kind;
+    const nlohmann::json& heap_calls = report["heap_calls"];
+    EXPECT_TRUE(heap_calls.is_null() || heap_calls == 0) << kind;
+    points.push_back(report["points_mean"]);
+  }
+  // In the order of the names: the rings tell more points apart, the entropy leaves some out.
+  EXPECT_GT(points[1], 1.2 * points[0]);
+  EXPECT_LT(points[2], 0.6 * points[0]);
 }
 
 TEST_F(SimulatedDrive, ReplaysToTheSameBytes) {
