@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "ndt/covariance.hpp"
 #include "ndt/objective.hpp"
 
 namespace landfix::ndt {
@@ -43,31 +44,6 @@ struct Estimate {
   const double factor = std::min({1.0, settings.step_limit_m / std::max(step.head<3>().norm(), 1e-12),
                                   settings.step_limit_rad / std::max(step.tail<3>().norm(), 1e-12)});
   return factor * step;
-}
-
-/// The covariance of (v, w) turned into one of x y z roll pitch yaw.
-[[nodiscard]] Matrix6 to_roll_pitch_yaw_covariance(const Matrix6& covariance, const Pose& pose) noexcept {
-  const RollPitchYaw angles = to_roll_pitch_yaw(pose.linear());
-  const double cy = std::cos(angles.yaw_rad);
-  const double sy = std::sin(angles.yaw_rad);
-  const double cp = std::max(std::cos(angles.pitch_rad), 1e-6);
-  const double tp = std::sin(angles.pitch_rad) / cp;
-  // Rates of roll, pitch and yaw of a rotation rate in map axes, R = Rz Ry Rx.
-  Matrix6 jacobian = Matrix6::Identity();
-  jacobian.bottomRightCorner<3, 3>() << cy / cp, sy / cp, 0.0,  //
-      -sy, cy, 0.0,                                             //
-      cy * tp, sy * tp, 1.0;
-  return jacobian * covariance * jacobian.transpose();
-}
-
-/// Laplace's approximation: the inverse Hessian at the maximum.
-[[nodiscard]] Matrix6 laplace_covariance(const Objective& objective) noexcept {
-  constexpr double kUnknown = 1e-6;  // information that stands for none: 1000 m, 1000 rad
-  const Eigen::LDLT<Matrix6> ldlt(objective.definite + kUnknown * Matrix6::Identity());
-  // By columns: Eigen's solver of several at once asks for cache sizes behind a lock.
-  Matrix6 inverse;
-  for (int i = 0; i < 6; ++i) inverse.col(i) = ldlt.solve(Twist::Unit(i).eval());
-  return inverse;
 }
 
 /// Whether the sharp optimum may replace the wide one it started from. The sharp score has many more maxima:
@@ -190,7 +166,7 @@ MatchResult Matcher::match(const VoxelMap& map, std::span<const Eigen::Vector3f>
   }
   result.pose = best.pose;
   result.pairs_dropped += groups_.dropped_pairs();
-  result.covariance = to_roll_pitch_yaw_covariance(laplace_covariance(best.objective), best.pose);
+  result.covariance = pose_covariance(best.objective, best.pose);
   result.iterations = search.iterations();
   result.points_matched = points.points_matched;
   if (!points_m.empty())
