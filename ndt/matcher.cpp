@@ -6,49 +6,15 @@
 #include <Eigen/Cholesky>
 
 #include "ndt/covariance.hpp"
+#include "ndt/newton_search.hpp"
 #include "ndt/objective.hpp"
 
 namespace landfix::ndt {
 namespace {
 
-struct Estimate {
-  Pose pose;
-  Objective objective;
-};
-
-[[nodiscard]] Pose moved(const Pose& pose, const Twist& step) noexcept {
-  Pose result = pose;
-  result.linear() = rotation_exp(step.tail<3>()) * pose.linear();
-  result.translation() += step.head<3>();
-  return result;
-}
-
-/// The step of Newton's method with as much of the curvature as leaves the Hessian positive definite, damped
-/// after Levenberg and Marquardt.
-[[nodiscard]] Twist newton_step(const Objective& objective, double damping) noexcept {
-  constexpr double kDefinite = 1e-3;  // of the definite part's diagonal
-  const Twist scale = objective.definite.diagonal().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();
-  const Matrix6 definite = scale.asDiagonal() * objective.definite * scale.asDiagonal();
-  const Matrix6 curvature = scale.asDiagonal() * objective.curvature * scale.asDiagonal();
-  const Twist gradient = scale.cwiseProduct(objective.gradient);
-  Eigen::LDLT<Matrix6> ldlt;
-  for (const double share : {1.0, 0.75, 0.5, 0.25, 0.0}) {
-    ldlt.compute(definite - share * curvature + damping * Matrix6::Identity());
-    if (ldlt.info() == Eigen::Success && ldlt.vectorD().minCoeff() > kDefinite) break;
-  }
-  // Directions that nothing constrains have a pivot near 0: LDLT's solve leaves them where they are.
-  return scale.cwiseProduct(ldlt.solve(gradient).eval());
-}
-
-[[nodiscard]] Twist limited(const Twist& step, const MatcherSettings& settings) noexcept {
-  const double factor = std::min({1.0, settings.step_limit_m / std::max(step.head<3>().norm(), 1e-12),
-                                  settings.step_limit_rad / std::max(step.tail<3>().norm(), 1e-12)});
-  return factor * step;
-}
-
-/// Whether the sharp optimum may replace the wide one it started from. The sharp score has many more maxima:
-/// with few points, a direction that nothing holds, or a large move it is likely to be another one.
-[[nodiscard]] bool is_trustworthy(const Estimate& wide, const Estimate& sharp, std::size_t points_matched,
+/// Whether the sharp optimum may stand. The sharp score has many maxima more than the wide one: with few
+/// points, a direction that nothing holds, or far from the wide optimum it is likely to be a wrong one.
+[[nodiscard]] bool is_trustworthy(const Estimate& sharp, const Pose& wide, std::size_t points_matched,
                                   double resolution_m) noexcept {
   constexpr std::size_t kEnoughPoints = 200;
   constexpr double kHeld = 1e-4;  // smallest pivot of the Hessian scaled to a unit diagonal
@@ -56,67 +22,46 @@ struct Estimate {
   constexpr double kSmallTurn_rad = 0.02;
   const Twist scale = sharp.objective.definite.diagonal().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();
   const Eigen::LDLT<Matrix6> ldlt(scale.asDiagonal() * sharp.objective.definite * scale.asDiagonal());
-  return points_matched >= kEnoughPoints && ldlt.vectorD().minCoeff() > kHeld &&
-         (sharp.pose.translation() - wide.pose.translation()).norm() < kSmallMove * resolution_m &&
-         angle_between(sharp.pose, wide.pose) < kSmallTurn_rad;
+  return sharp.converged && points_matched >= kEnoughPoints && ldlt.vectorD().minCoeff() > kHeld &&
+         (sharp.pose.translation() - wide.translation()).norm() < kSmallMove * resolution_m &&
+         angle_between(sharp.pose, wide) < kSmallTurn_rad;
 }
 
-/// How a search looks at the map, and when it may stop.
-struct Phase {
-  Covariance covariance{};
-  double narrowness = 1.0;   ///< factor of d2: below 1, voxels pull from farther away
-  double converged_m = 0.0;  ///< a step shorter than both ends it
-  double converged_rad = 0.0;
-};
-
-/// From far away: few points, and distributions so wide that the nearest optimum
-/// is the right one from twice as far. Where it ends is near enough for the other phases.
-constexpr Phase kCoarse{
-    .covariance = Covariance::wide, .narrowness = 0.05, .converged_m = 0.02, .converged_rad = 2e-3};
-
-/// Of a search that another one goes on from.
-constexpr double kLeadingTolerance = 30.0;
-
-class Search {
- public:
-  Search(const VoxelMap& map, const MatcherSettings& settings, const ScoreConstants& constants) noexcept
-      : map_(map), settings_(settings), constants_(constants) {}
-
-  [[nodiscard]] Estimate evaluate_at(const Pose& pose, PairGroups& groups, const Phase& phase) noexcept {
-    ++iterations_;
-    const ScoreConstants constants{.d1 = constants_.d1, .d2 = phase.narrowness * constants_.d2};
-    return {pose, evaluate(map_, groups, pose, phase.covariance, constants)};
-  }
-
-  /// Climbs from `best` until a step is negligible (true) or the iterations are spent (false).
-  [[nodiscard]] bool climb(Estimate& best, PairGroups& groups, const Phase& phase) noexcept {
-    constexpr double kMinDamping = 1e-5;
-    constexpr double kMaxDamping = 1e4;
-    double damping = kMinDamping;
-    while (iterations_ < settings_.max_iterations) {
-      const Twist step = limited(newton_step(best.objective, damping), settings_);
-      if (step.head<3>().norm() < phase.converged_m && step.tail<3>().norm() < phase.converged_rad)
-        return true;
-      const Estimate next = evaluate_at(moved(best.pose, step), groups, phase);
-      if (next.objective.score >= best.objective.score) {
-        best = next;
-        damping = std::max(0.1 * damping, kMinDamping);
-      } else {
-        damping = std::max(10.0 * damping, 0.1);
-        if (damping > kMaxDamping) return true;
-      }
+/// The phases of a search, from far away to the last digit. Only the last need be exact: what leads to it
+/// looks at few points, in less time.
+struct Phases {
+  explicit Phases(const MatcherSettings& settings) noexcept
+      : wide{.covariance = Covariance::wide,
+             .tolerance_m = settings.converged_m,
+             .tolerance_rad = settings.converged_rad},
+        sharp(wide),
+        leading_wide(wide),
+        leading_sharp(wide) {
+    constexpr double kLoose = 100.0;
+    sharp.covariance = leading_sharp.covariance = Covariance::sharp;
+    for (Phase* const phase : {&leading_wide, &leading_sharp}) {
+      phase->tolerance_m *= kLoose;
+      phase->tolerance_rad *= kLoose;
+      phase->max_iterations = 6;
     }
-    return false;
   }
 
-  [[nodiscard]] int iterations() const noexcept { return iterations_; }
-
- private:
-  const VoxelMap& map_;
-  const MatcherSettings& settings_;
-  ScoreConstants constants_;
-  int iterations_ = 0;
+  /// Distributions so wide that the nearest optimum is the right one from twice as far.
+  Phase coarse{.covariance = Covariance::wide,
+               .narrowness = 0.05,
+               .tolerance_m = 0.02,
+               .tolerance_rad = 2e-3,
+               .max_iterations = 20};
+  Phase wide;
+  Phase sharp;
+  Phase leading_wide;
+  Phase leading_sharp;
 };
+
+/// Every how many-th point makes about so many.
+[[nodiscard]] std::size_t stride_for(std::size_t points, std::size_t wanted) noexcept {
+  return std::max<std::size_t>(1, points / wanted);
+}
 
 }  // namespace
 
@@ -124,46 +69,41 @@ MatchResult Matcher::match(const VoxelMap& map, std::span<const Eigen::Vector3f>
                            const Pose& guess) noexcept {
   MatchResult result;
   const ScoreConstants constants = score_constants(settings_.outlier_ratio, map.resolution_m());
-  const Phase sharp_phase{.covariance = Covariance::sharp,
-                          .converged_m = settings_.converged_m,
-                          .converged_rad = settings_.converged_rad};
-  Phase wide_phase = sharp_phase;
-  wide_phase.covariance = Covariance::wide;
-  // What only leads to the sharp optimum need not be exact.
-  Phase leading_phase = wide_phase;
-  leading_phase.converged_m *= kLeadingTolerance;
-  leading_phase.converged_rad *= kLeadingTolerance;
   result.points = points_m.size();
   result.best_likelihood = constants.d1;
-  Search search(map, settings_, constants);
+  const Phases phases(settings_);
+  NewtonSearch search(map, constants, {settings_.step_limit_m, settings_.step_limit_rad},
+                      settings_.max_iterations);
 
-  Pose start = guess;
-  if (settings_.coarse_points != 0) {
-    const std::size_t stride = std::max<std::size_t>(1, points_m.size() / settings_.coarse_points);
-    coarse_groups_.assign(points_m, stride);
-    Estimate coarse = search.evaluate_at(guess, coarse_groups_, kCoarse);
-    if (coarse.objective.pairs != 0) static_cast<void>(search.climb(coarse, coarse_groups_, kCoarse));
-    start = coarse.pose;
-    result.pairs_dropped = coarse_groups_.dropped_pairs();
+  Pose wide = guess;
+  Pose sharp = guess;
+  if (settings_.few_points != 0) {
+    coarse_groups_.assign(points_m, stride_for(points_m.size(), settings_.few_points));
+    leading_groups_.assign(points_m, stride_for(points_m.size(), 2 * settings_.few_points));
+    wide = search.climb(guess, coarse_groups_, phases.coarse).pose;
+    wide = search.climb(wide, leading_groups_, phases.leading_wide).pose;
+    const Estimate leading = search.climb(wide, leading_groups_, phases.leading_sharp);
+    sharp = leading.converged ? leading.pose : wide;
+    result.pairs_dropped = coarse_groups_.dropped_pairs() + leading_groups_.dropped_pairs();
   }
 
   groups_.assign(points_m, 1);
-  Estimate best = search.evaluate_at(start, groups_, wide_phase);
-  result.converged = best.objective.pairs != 0 &&
-                     search.climb(best, groups_, settings_.sharpen ? leading_phase : wide_phase);
-  groups_.update(map, best.pose, Covariance::wide);
-  const PointScores points = score_points(map, groups_, best.pose, constants);
-  result.score = best.objective.score;
-  if (settings_.sharpen && result.converged) {
-    Estimate sharp = search.evaluate_at(best.pose, groups_, sharp_phase);
-    result.sharpened = search.climb(sharp, groups_, sharp_phase) &&
-                       is_trustworthy(best, sharp, points.points_matched, map.resolution_m());
-    if (result.sharpened) {
-      best = sharp;
-    } else {
-      result.converged = search.climb(best, groups_, wide_phase);
-    }
+  Estimate best;
+  PointScores points;
+  const auto score_wide = [&] {
+    result.score = evaluate(map, groups_, best.pose, Covariance::wide, constants).score;
+    points = score_points(map, groups_, best.pose, constants);
+  };
+  if (settings_.sharpen) {
+    best = search.climb(sharp, groups_, phases.sharp);
+    score_wide();
+    result.sharpened = is_trustworthy(best, wide, points.points_matched, map.resolution_m());
   }
+  if (!result.sharpened) {
+    best = search.climb(wide, groups_, phases.wide);
+    score_wide();
+  }
+  result.converged = best.converged;
   result.pose = best.pose;
   result.pairs_dropped += groups_.dropped_pairs();
   result.covariance = pose_covariance(best.objective, best.pose);

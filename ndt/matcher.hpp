@@ -21,8 +21,8 @@ struct MatcherSettings {
   double step_limit_rad = 0.03;
   double converged_m = 1e-4;  ///< a step shorter than both ends the search
   double converged_rad = 1e-5;
-  bool sharpen = true;              ///< finish on the sharp covariances where that can be trusted
-  std::size_t coarse_points = 300;  ///< that move the scan first, about; 0: no coarse search
+  bool sharpen = true;           ///< finish on the sharp covariances where that can be trusted
+  std::size_t few_points = 300;  ///< that lead the search, about; 0: none do
 };
 
 struct MatchResult {
@@ -56,11 +56,12 @@ class Matcher {
   static constexpr std::size_t kMaxPoints = 1 << 15;
 
  private:
-  /// The coarse search's pairs: a step of it moves the points far.
-  static constexpr Reach kCoarseReach{.pair = 1.5, .margin = 0.4};
+  /// Of few points, from afar: a step moves them far, and voxels far away pull.
+  static constexpr Reach kCoarseReach{.pair = 1.5, .margin = 0.1};
 
   MatcherSettings settings_;
   PairGroups coarse_groups_;
+  PairGroups leading_groups_;
   PairGroups groups_;
 };
 

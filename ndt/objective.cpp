@@ -19,6 +19,20 @@ namespace {
   return matrix;
 }
 
+/// T' H T of a symmetric H, where T takes a twist about the vehicle to one about a point that is `arm_m` from
+/// it: v + w x arm, w. By blocks, since three quarters of T are 0 or 1.
+[[nodiscard]] Matrix6 about_the_vehicle(const Matrix6& hessian, const Eigen::Matrix3d& arm_skew_m) noexcept {
+  const Eigen::Matrix3d translation = hessian.topLeftCorner<3, 3>();
+  const Eigen::Matrix3d mixed = hessian.topRightCorner<3, 3>();
+  const Eigen::Matrix3d moved = translation * arm_skew_m;
+  const Eigen::Matrix3d turned = arm_skew_m * (mixed - 0.5 * moved);
+  Matrix6 result = hessian;
+  result.topRightCorner<3, 3>() -= moved;
+  result.bottomLeftCorner<3, 3>() = result.topRightCorner<3, 3>().transpose();
+  result.bottomRightCorner<3, 3>() += turned + turned.transpose();
+  return result;
+}
+
 [[nodiscard]] GroupPlace place_of(const PairGroup& group, double resolution_m, const Reach& reach,
                                   const Pose& pose) noexcept {
   GroupPlace place;
@@ -34,13 +48,6 @@ namespace {
   return place;
 }
 
-/// What a rotation about the group's centre is, from one about the vehicle: v + w x arm, w.
-[[nodiscard]] Matrix6 about_the_centre(const Eigen::Vector3d& arm_m) noexcept {
-  Matrix6 transform = Matrix6::Identity();
-  transform.topRightCorner<3, 3>() = -skew(arm_m);
-  return transform;
-}
-
 }  // namespace
 
 Objective evaluate(const VoxelMap& map, PairGroups& groups, const Pose& pose, Covariance covariance,
@@ -53,14 +60,16 @@ Objective evaluate(const VoxelMap& map, PairGroups& groups, const Pose& pose, Co
     if (group.pair_count == 0) continue;
     const GroupSums part = sum_pairs(groups.columns(i), group.pair_count,
                                      place_of(group, map.resolution_m(), groups.reach(), pose), constants);
-    const Matrix6 transform = about_the_centre(pose.linear() * group.centre_m);
+    const Eigen::Vector3d arm_m = pose.linear() * group.centre_m;
+    const Eigen::Matrix3d arm_skew_m = skew(arm_m);
+    const Eigen::Vector3d pull = Eigen::Map<const Eigen::Vector3f>(part.gradient.data()).cast<double>();
+    const Eigen::Vector3d turn = Eigen::Map<const Eigen::Vector3f>(part.gradient.data() + 3).cast<double>();
     pairs += static_cast<double>(part.pairs);
     sum.score += static_cast<double>(part.score);
-    sum.gradient.noalias() +=
-        transform.transpose() *
-        Eigen::Map<const Eigen::Matrix<float, 6, 1>>(part.gradient.data()).cast<double>();
-    sum.definite.noalias() += transform.transpose() * (to_matrix(part.definite) * transform).eval();
-    sum.curvature.noalias() += transform.transpose() * (to_matrix(part.curvature) * transform).eval();
+    sum.gradient.head<3>() += pull;
+    sum.gradient.tail<3>() += turn + arm_m.cross(pull);
+    sum.definite += about_the_vehicle(to_matrix(part.definite), arm_skew_m);
+    sum.curvature += about_the_vehicle(to_matrix(part.curvature), arm_skew_m);
   }
   sum.pairs = static_cast<std::size_t>(pairs);
   return sum;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "ndt/pair_lookup.hpp"
 
@@ -11,10 +12,13 @@ namespace {
 /// No LiDAR sees farther; a point that did would take the digits of its group.
 constexpr float kFarthest_m = 1e4F;
 
-/// How far the pose has taken the group's points from where they were looked up, at most.
+/// How far the pose has taken the group's points from where they were looked up, at most. A rotation by an
+/// angle moves what is 1 m from its axis by 2 sin(angle / 2), which is the norm of the matrices' difference
+/// over the root of 2.
 [[nodiscard]] double moved_m(const PairGroup& group, const Pose& pose) noexcept {
-  return (pose * group.centre_m - group.looked_up_at * group.centre_m).norm() +
-         angle_between(pose, group.looked_up_at) * group.radius_m;
+  const Pose& before = group.looked_up_at;
+  return (pose * group.centre_m - before * group.centre_m).norm() +
+         std::numbers::sqrt2 / 2.0 * (pose.linear() - before.linear()).norm() * group.radius_m;
 }
 
 }  // namespace

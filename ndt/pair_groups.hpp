@@ -42,7 +42,7 @@ struct alignas(64) PairColumns {
 /// In resolutions. Both together are less than two.
 struct Reach {
   double pair = 1.0;    ///< a point and a voxel's mean are a pair within it
-  double margin = 0.2;  ///< beyond it, candidates
+  double margin = 0.1;  ///< beyond it, candidates
 };
 
 struct PairGroup {

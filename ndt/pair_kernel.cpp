@@ -1,5 +1,7 @@
 #include "ndt/pair_kernel.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
 
@@ -22,7 +24,7 @@ using Floats = hn::CappedTag<float, 16>;
 using V = hn::Vec<Floats>;
 
 /// e^x for x in [-87, 0], to 2 units in the last place: 2^n times a polynomial on [-ln2/2, ln2/2].
-HWY_ATTR V exp_negative(V x) {
+HWY_INLINE V exp_negative(V x) {
   const Floats d;
   const hn::RebindToSigned<Floats> di;
   const V clamped = hn::Max(x, hn::Set(d, -87.0F));
@@ -47,19 +49,19 @@ struct Vector {
   V z;
 };
 
-HWY_ATTR V dot(const Vector& a, const Vector& b) {
+HWY_INLINE V dot(const Vector& a, const Vector& b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
 
-HWY_ATTR Vector cross(const Vector& a, const Vector& b) {
+HWY_INLINE Vector cross(const Vector& a, const Vector& b) {
   return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
           hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
 }
 
-HWY_ATTR void add(V& sum, V a, V b) { sum = hn::MulAdd(a, b, sum); }
+HWY_INLINE void add(V& sum, V a, V b) { sum = hn::MulAdd(a, b, sum); }
 
 /// w J' C J with J = [I, -S], S = skew(y): C, -C S, S' C S.
-HWY_ATTR void add_definite(V* sums, const Vector (&c)[3], const Vector& y, V weight) {
+HWY_INLINE void add_definite(V* sums, const Vector (&c)[3], const Vector& y, V weight) {
   // Rows of C S.
   const Vector cs[3] = {cross(c[0], y), cross(c[1], y), cross(c[2], y)};
   const V minus_weight = hn::Neg(weight);
@@ -90,7 +92,7 @@ HWY_ATTR void add_definite(V* sums, const Vector (&c)[3], const Vector& y, V wei
   add(sums[20], minus_weight, column_z.z);
 }
 
-HWY_ATTR void add_outer(V* sums, const V (&u)[6], V weight) {
+HWY_INLINE void add_outer(V* sums, const V (&u)[6], V weight) {
   for (int i = 0, n = 0; i < 6; ++i) {
     const V weighted = hn::Mul(weight, u[i]);
     for (int j = i; j < 6; ++j) add(sums[n++], weighted, u[j]);
@@ -107,8 +109,8 @@ struct Candidates {
   hn::Mask<Floats> is_pair;
 };
 
-HWY_ATTR Candidates candidates(const PairColumns& columns, std::size_t i, std::size_t count,
-                               const GroupPlace& place) {
+HWY_INLINE Candidates candidates(const PairColumns& columns, std::size_t i, std::size_t count,
+                                 const GroupPlace& place) {
   const Floats d;
   const auto load = [&](const auto& column) HWY_ATTR { return hn::Load(d, column.data() + i); };
   const auto set = [&](float value) HWY_ATTR { return hn::Set(d, value); };
@@ -143,23 +145,95 @@ HWY_ATTR void measure_pairs_simd(const PairColumns& columns, std::size_t count, 
   }
 }
 
-HWY_ATTR void sum_pairs_simd(const PairColumns& columns, std::size_t count, const GroupPlace& place, float d1,
-                             float d2, GroupSums& result) {
+/// Candidates that are worked on at a time. One loop would need a running sum for each of 50 numbers, more
+/// than there are registers; of three in turn, each keeps its own.
+constexpr std::size_t kStretch = 128;
+
+/// Of each candidate of a stretch, what the sums of second order are made of.
+struct alignas(64) Stretch {
+  template <std::size_t n>
+  using Rows = std::array<std::array<float, kStretch>, n>;
+
+  Rows<3> arm_m;
+  Rows<6> gradient;  ///< of half the squared distance
+  Rows<1> weight;    ///< 0 where it is no pair
+};
+
+HWY_INLINE V load(const std::array<float, kStretch>& row, std::size_t i) {
+  return hn::Load(Floats(), row.data() + i);
+}
+
+/// Adds the number of pairs, the score and its gradient; fills the stretch, which begins at `first`.
+HWY_INLINE void add_first_order(const PairColumns& columns, std::size_t first, std::size_t count,
+                                const GroupPlace& place, const ScoreConstants& constants, V* sums,
+                                Stretch& stretch) {
   const Floats d;
-  V sums[kGroupSumCount];  // in the order of GroupSums
-  for (V& sum : sums) sum = hn::Zero(d);
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const Candidates all = candidates(columns, i, count, place);
-    const V exponent = hn::Mul(hn::Set(d, -0.5F * d2), all.distance);
-    const V score = hn::IfThenElseZero(all.is_pair, hn::Mul(hn::Set(d, d1), exp_negative(exponent)));
-    const V weight = hn::Mul(hn::Set(d, d2), score);
+  const V d1 = hn::Set(d, static_cast<float>(constants.d1));
+  const V d2 = hn::Set(d, static_cast<float>(constants.d2));
+  V sum[8];
+  for (int k = 0; k < 8; ++k) sum[k] = sums[k];
+  for (std::size_t i = 0; i < std::min(kStretch, count - first); i += hn::Lanes(d)) {
+    const Candidates all = candidates(columns, first + i, count, place);
+    const V exponent = hn::Mul(hn::Mul(hn::Set(d, -0.5F), d2), all.distance);
+    const V score = hn::IfThenElseZero(all.is_pair, hn::Mul(d1, exp_negative(exponent)));
+    const V weight = hn::Mul(d2, score);
     const Vector turn = cross(all.arm, all.pull);
     const V u[6] = {all.pull.x, all.pull.y, all.pull.z, turn.x, turn.y, turn.z};
-    sums[0] = hn::Add(sums[0], hn::IfThenElseZero(all.is_pair, hn::Set(d, 1.0F)));
-    sums[1] = hn::Add(sums[1], score);
-    for (int k = 0; k < 6; ++k) sums[2 + k] = hn::NegMulAdd(weight, u[k], sums[2 + k]);
-    add_definite(sums + 8, all.c, all.arm, weight);
-    add_outer(sums + 29, u, hn::Mul(weight, hn::Set(d, d2)));
+    sum[0] = hn::Add(sum[0], hn::IfThenElseZero(all.is_pair, hn::Set(d, 1.0F)));
+    sum[1] = hn::Add(sum[1], score);
+    for (std::size_t k = 0; k < 6; ++k) {
+      sum[2 + k] = hn::NegMulAdd(weight, u[k], sum[2 + k]);
+      hn::Store(u[k], d, stretch.gradient[k].data() + i);
+    }
+    hn::Store(all.arm.x, d, stretch.arm_m[0].data() + i);
+    hn::Store(all.arm.y, d, stretch.arm_m[1].data() + i);
+    hn::Store(all.arm.z, d, stretch.arm_m[2].data() + i);
+    hn::Store(weight, d, stretch.weight[0].data() + i);
+  }
+  for (int k = 0; k < 8; ++k) sums[k] = sum[k];
+}
+
+HWY_INLINE void add_all_definite(const PairColumns& columns, std::size_t first, std::size_t count,
+                                 const Stretch& stretch, V* sums) {
+  const Floats d;
+  V sum[21];
+  for (int k = 0; k < 21; ++k) sum[k] = sums[k];
+  for (std::size_t i = 0; i < std::min(kStretch, count - first); i += hn::Lanes(d)) {
+    const auto shape = [&](std::size_t k) HWY_ATTR {
+      return hn::Load(d, columns.inverse_covariance_1pm2[k].data() + first + i);
+    };
+    const V xy = shape(1);
+    const V xz = shape(2);
+    const V yz = shape(4);
+    const Vector c[3] = {{shape(0), xy, xz}, {xy, shape(3), yz}, {xz, yz, shape(5)}};
+    const Vector arm{load(stretch.arm_m[0], i), load(stretch.arm_m[1], i), load(stretch.arm_m[2], i)};
+    add_definite(sum, c, arm, load(stretch.weight[0], i));
+  }
+  for (int k = 0; k < 21; ++k) sums[k] = sum[k];
+}
+
+HWY_INLINE void add_all_outer(std::size_t count, const Stretch& stretch, float d2, V* sums) {
+  const Floats d;
+  V sum[21];
+  for (int k = 0; k < 21; ++k) sum[k] = sums[k];
+  for (std::size_t i = 0; i < std::min(kStretch, count); i += hn::Lanes(d)) {
+    V u[6];
+    for (std::size_t k = 0; k < 6; ++k) u[k] = load(stretch.gradient[k], i);
+    add_outer(sum, u, hn::Mul(load(stretch.weight[0], i), hn::Set(d, d2)));
+  }
+  for (int k = 0; k < 21; ++k) sums[k] = sum[k];
+}
+
+HWY_ATTR void sum_pairs_simd(const PairColumns& columns, std::size_t count, const GroupPlace& place,
+                             const ScoreConstants& constants, GroupSums& result) {
+  const Floats d;
+  V sums[kGroupSumCount];
+  for (V& sum : sums) sum = hn::Zero(d);
+  Stretch stretch;
+  for (std::size_t first = 0; first < count; first += kStretch) {
+    add_first_order(columns, first, count, place, constants, sums, stretch);
+    add_all_definite(columns, first, count, stretch, sums + 8);
+    add_all_outer(count - first, stretch, static_cast<float>(constants.d2), sums + 29);
   }
   float totals[kGroupSumCount];
   for (std::size_t k = 0; k < kGroupSumCount; ++k) totals[k] = hn::GetLane(hn::SumOfLanes(d, sums[k]));
@@ -180,8 +254,7 @@ HWY_EXPORT(measure_pairs_simd);
 GroupSums sum_pairs(const PairColumns& columns, std::size_t count, const GroupPlace& place,
                     const ScoreConstants& constants) noexcept {
   GroupSums sums;
-  HWY_DYNAMIC_DISPATCH(sum_pairs_simd)
-  (columns, count, place, static_cast<float>(constants.d1), static_cast<float>(constants.d2), sums);
+  HWY_DYNAMIC_DISPATCH(sum_pairs_simd)(columns, count, place, constants, sums);
   return sums;
 }
 

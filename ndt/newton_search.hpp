@@ -1,0 +1,56 @@
+// Newton's method on the objective: climbs from a pose to the nearest maximum.
+#pragma once
+
+#include "ndt/objective.hpp"
+#include "ndt/pair_groups.hpp"
+#include "ndt/pose.hpp"
+#include "ndt/score.hpp"
+#include "ndt/voxel_map.hpp"
+
+namespace landfix::ndt {
+
+/// How a climb looks at the map, and when it ends.
+struct Phase {
+  Covariance covariance{};
+  double narrowness = 1.0;  ///< factor of d2: below 1, voxels pull from farther away
+  double tolerance_m = 0.0;
+  double tolerance_rad = 0.0;  ///< a step shorter than both ends it
+  int max_iterations = 1000;
+};
+
+struct StepLimits {
+  double length_m = 0.0;
+  double angle_rad = 0.0;
+};
+
+/// Where a climb ended.
+struct Estimate {
+  Pose pose = Pose::Identity();
+  Objective objective;
+  bool converged = false;  ///< not for want of iterations, nor for want of pairs
+};
+
+/// Several climbs share one allowance of iterations, which are evaluations of the objective.
+class NewtonSearch {
+ public:
+  /// `map` must outlive the search.
+  NewtonSearch(const VoxelMap& map, const ScoreConstants& constants, const StepLimits& limits,
+               int max_iterations) noexcept
+      : map_(map), constants_(constants), limits_(limits), max_iterations_(max_iterations) {}
+
+  /// Climbs until a step is negligible. Each step is tried before it is taken and must not lower the score.
+  [[nodiscard]] Estimate climb(const Pose& start, PairGroups& groups, const Phase& phase) noexcept;
+
+  [[nodiscard]] int iterations() const noexcept { return iterations_; }
+
+ private:
+  [[nodiscard]] Estimate evaluate_at(const Pose& pose, PairGroups& groups, const Phase& phase) noexcept;
+
+  const VoxelMap& map_;
+  ScoreConstants constants_;
+  StepLimits limits_;
+  int max_iterations_;
+  int iterations_ = 0;
+};
+
+}  // namespace landfix::ndt
