@@ -3,6 +3,13 @@
 #include <array>
 #include <cstring>
 
+#if defined(__x86_64__)
+#include <nmmintrin.h>
+#elif defined(__aarch64__)
+#include <arm_acle.h>
+#include <sys/auxv.h>
+#endif
+
 namespace landfix::ndt {
 namespace {
 
@@ -22,10 +29,53 @@ constexpr auto kCrc32c = [] {
   return table;
 }();
 
+#if defined(__x86_64__)
+constexpr bool kHasInstruction = true;
+#define LANDFIX_CRC_TARGET __attribute__((target("sse4.2")))
+LANDFIX_CRC_TARGET inline std::uint32_t step(std::uint32_t crc, std::uint64_t word) noexcept {
+  return static_cast<std::uint32_t>(_mm_crc32_u64(crc, word));
+}
+[[nodiscard]] bool processor_has_instruction() noexcept { return __builtin_cpu_supports("sse4.2") != 0; }
+#elif defined(__aarch64__)
+constexpr bool kHasInstruction = true;
+#define LANDFIX_CRC_TARGET __attribute__((target("+crc")))
+LANDFIX_CRC_TARGET inline std::uint32_t step(std::uint32_t crc, std::uint64_t word) noexcept {
+  return __crc32cd(crc, word);
+}
+[[nodiscard]] bool processor_has_instruction() noexcept {
+  constexpr unsigned long kCrc32 = 1UL << 7;  // HWCAP_CRC32
+  return (::getauxval(AT_HWCAP) & kCrc32) != 0;
+}
+#else
+constexpr bool kHasInstruction = false;
+#define LANDFIX_CRC_TARGET
+inline std::uint32_t step(std::uint32_t crc, std::uint64_t /*word*/) noexcept { return crc; }
+[[nodiscard]] bool processor_has_instruction() noexcept { return false; }
+#endif
+
+/// The whole words of `bytes`; the rest is the table's.
+LANDFIX_CRC_TARGET std::uint32_t update_by_instruction(std::uint32_t crc,
+                                                       std::span<const std::byte>& bytes) noexcept {
+  while (bytes.size() >= 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data(), 8);
+    crc = step(crc, word);
+    bytes = bytes.subspan(8);
+  }
+  return crc;
+}
+
+const bool kUseInstruction = kHasInstruction && processor_has_instruction();
+
 }  // namespace
 
-// Eight bytes a step ("slicing by 8"): maps are hundreds of megabytes.
 std::uint32_t crc32c_update(std::uint32_t crc, std::span<const std::byte> bytes) noexcept {
+  if (kUseInstruction) crc = update_by_instruction(crc, bytes);
+  return crc32c_update_by_table(crc, bytes);
+}
+
+// Eight bytes a step ("slicing by 8").
+std::uint32_t crc32c_update_by_table(std::uint32_t crc, std::span<const std::byte> bytes) noexcept {
   while (bytes.size() >= 8) {
     std::uint64_t word = 0;
     std::memcpy(&word, bytes.data(), 8);

@@ -40,15 +40,24 @@ struct LatticePoint {
   return std::abs(cells.x()) < kLimit && std::abs(cells.y()) < kLimit && std::abs(cells.z()) < kLimit;
 }
 
+/// std::floor of what fits, which without SSE4.1 is a call.
+[[nodiscard]] constexpr std::int32_t floor_of(double value) noexcept {
+  const auto truncated = static_cast<std::int32_t>(value);
+  return truncated - (truncated > value ? 1 : 0);
+}
+
+/// The cell of a position in units of cells that has one.
+[[nodiscard]] inline Cell cell_of(const Eigen::Vector3d& cells) noexcept {
+  return {floor_of(cells.x()), floor_of(cells.y()), floor_of(cells.z())};
+}
+
 [[nodiscard]] inline LatticePoint to_lattice(const Eigen::Vector3d& point_m, double resolution_m,
                                              double inverse_resolution_1pm) noexcept {
   const Eigen::Vector3d scaled = point_m * inverse_resolution_1pm;
   if (!has_cell(scaled)) return {};
-  const Eigen::Vector3d lower(std::floor(scaled.x()), std::floor(scaled.y()), std::floor(scaled.z()));
-  return {.cell = {static_cast<std::int32_t>(lower.x()), static_cast<std::int32_t>(lower.y()),
-                   static_cast<std::int32_t>(lower.z())},
-          .offset_m = (point_m - lower * resolution_m).cast<float>(),
-          .inside = true};
+  const Cell cell = cell_of(scaled);
+  const Eigen::Vector3d lower(cell.i, cell.j, cell.k);
+  return {.cell = cell, .offset_m = (point_m - lower * resolution_m).cast<float>(), .inside = true};
 }
 
 /// 21 bits an axis, x highest.
@@ -73,6 +82,28 @@ struct LatticePoint {
 /// Bit of a cell in its block's mask: x fastest.
 [[nodiscard]] constexpr unsigned cell_bit(const Cell& cell) noexcept {
   return static_cast<unsigned>((cell.i & 3) | ((cell.j & 3) << 2) | ((cell.k & 3) << 4));
+}
+
+/// The cell of a bit, from the corner of its block.
+[[nodiscard]] constexpr Cell cell_in_block(unsigned bit) noexcept {
+  const auto index = static_cast<std::int32_t>(bit);
+  return {index & 3, (index >> 2) & 3, index >> 4};
+}
+
+/// Three coordinates of a key, each from 0 on, interleaved bit by bit: in the order of this code neighbours
+/// in space are neighbours in memory, and an aligned cube of 2^n blocks a side is one run (Morton, 1966).
+[[nodiscard]] constexpr std::uint64_t morton_code(std::uint64_t key) noexcept {
+  const auto spread = [key](unsigned shift) {
+    constexpr std::uint64_t kField = (1U << 21) - 1;
+    constexpr std::uint64_t kSignToFront = 1U << 20;
+    std::uint64_t bits = ((key >> shift) & kField) ^ kSignToFront;
+    bits = (bits | bits << 32) & 0x001F00000000FFFF;
+    bits = (bits | bits << 16) & 0x001F0000FF0000FF;
+    bits = (bits | bits << 8) & 0x100F00F00F00F00F;
+    bits = (bits | bits << 4) & 0x10C30C30C30C30C3;
+    return (bits | bits << 2) & 0x1249249249249249;
+  };
+  return spread(0) | spread(21) << 1 | spread(42) << 2;
 }
 
 /// Mixes a key so that its high bits index a table of a power of two (Fibonacci hashing, after a fold because

@@ -2,23 +2,20 @@
 
 #include <cstring>
 #include <new>
+#include <stdexcept>
 
-#include "ndt/voxel_map.hpp"
+#include <fmt/format.h>
+
+#include "ndt/map_layout.hpp"
 
 namespace landfix::ndt {
-namespace {
 
-constexpr std::size_t kAlignment = alignof(Voxel);
-
-}  // namespace
-
-void MapImage::Free::operator()(std::byte* bytes) const noexcept {
-  ::operator delete[](bytes, std::align_val_t{kAlignment});
-}
-
-MapImage::MapImage(std::size_t size)
-    : bytes_(static_cast<std::byte*>(::operator new[](size, std::align_val_t{kAlignment}))), size_(size) {
-  std::memset(bytes_.get(), 0, size);
+MapMemory::MapMemory(std::size_t size) : size_(size) {
+  constexpr std::align_val_t kAlignment{alignof(Voxel)};
+  auto* const bytes = static_cast<std::byte*>(::operator new[](size, kAlignment, std::nothrow));
+  if (bytes == nullptr) throw std::runtime_error(fmt::format("no memory for a map of {} bytes", size));
+  bytes_.reset(bytes, [](std::byte* memory) { ::operator delete[](memory, kAlignment); });
+  std::memset(bytes, 0, size);
 }
 
 }  // namespace landfix::ndt

@@ -39,18 +39,21 @@ template <class T>
   return static_cast<double>(value);
 }
 
-[[nodiscard]] double element(const PcdField& field, const std::byte* bytes) noexcept {
-  if (field.type == 'F') return field.size == 4 ? load<float>(bytes) : load<double>(bytes);
+/// Reads an element of a field's type.
+using Load = double (*)(const std::byte*) noexcept;
+
+[[nodiscard]] Load load_of(const PcdField& field) noexcept {
+  if (field.type == 'F') return field.size == 4 ? load<float> : load<double>;
   const bool is_signed = field.type == 'I';
   switch (field.size) {
     case 1:
-      return is_signed ? load<std::int8_t>(bytes) : load<std::uint8_t>(bytes);
+      return is_signed ? load<std::int8_t> : load<std::uint8_t>;
     case 2:
-      return is_signed ? load<std::int16_t>(bytes) : load<std::uint16_t>(bytes);
+      return is_signed ? load<std::int16_t> : load<std::uint16_t>;
     case 4:
-      return is_signed ? load<std::int32_t>(bytes) : load<std::uint32_t>(bytes);
+      return is_signed ? load<std::int32_t> : load<std::uint32_t>;
     default:
-      return is_signed ? load<std::int64_t>(bytes) : load<std::uint64_t>(bytes);
+      return is_signed ? load<std::int64_t> : load<std::uint64_t>;
   }
 }
 
@@ -114,17 +117,30 @@ void visit_ascii(const PcdHeader& header, Bytes file, const std::string& name,
   }
 }
 
-/// `element_at(field, point)` gives the address of a field's first element.
-template <class ElementAt>
+/// Where the first elements of a column lie, and how they are read.
+struct Column {
+  Load load = nullptr;
+  const std::byte* first = nullptr;
+  std::size_t stride = 0;  ///< bytes from point to point
+  std::size_t place = 0;   ///< in the caller's row
+};
+
+/// `column_of(field)` gives a column without load and place.
+template <class ColumnOf>
 void visit_elements(const PcdHeader& header, std::span<const std::size_t> places, const Visit& visit,
-                    ElementAt element_at) {
+                    ColumnOf column_of) {
+  std::vector<Column> columns;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i] == std::string::npos) continue;
+    const PcdField& field = header.fields[places[i]];
+    columns.push_back(column_of(field));
+    columns.back().load = load_of(field);
+    columns.back().place = i;
+  }
   std::vector<double> row(places.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t point = 0; point < header.points; ++point) {
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (places[i] == std::string::npos) continue;
-      const PcdField& field = header.fields[places[i]];
-      row[i] = element(field, element_at(field, point));
-    }
+    for (const Column& column : columns)
+      row[column.place] = column.load(column.first + point * column.stride);
     visit(row);
   }
 }
@@ -136,8 +152,8 @@ void visit_binary(const PcdHeader& header, Bytes file, const std::string& name,
     fail(name, fmt::format("truncated: byte {} of {}", file.size(),
                            header.data_offset + header.points * header.point_size));
   }
-  visit_elements(header, places, visit, [&](const PcdField& field, std::size_t point) {
-    return data.data() + point * header.point_size + field.offset;
+  visit_elements(header, places, visit, [&](const PcdField& field) {
+    return Column{.first = data.data() + field.offset, .stride = header.point_size};
   });
 }
 
@@ -167,8 +183,8 @@ void visit_compressed(const PcdHeader& header, Bytes file, const std::string& na
     fail(name, "its compressed data is damaged");
   }
   // Field by field: all x, all y, ...
-  visit_elements(header, places, visit, [&](const PcdField& field, std::size_t point) {
-    return points.data() + header.points * field.offset + point * field.size * field.count;
+  visit_elements(header, places, visit, [&](const PcdField& field) {
+    return Column{.first = points.data() + header.points * field.offset, .stride = field.size * field.count};
   });
 }
 

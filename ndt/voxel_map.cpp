@@ -7,13 +7,13 @@ VoxelMap::VoxelMap(std::span<const std::byte> bytes) noexcept
       resolution_m_(header_->resolution_m),
       hash_shift_(64U - static_cast<unsigned>(std::countr_zero(header_->table_size))),
       longest_probe_(header_->longest_probe) {
-  const auto* const table = reinterpret_cast<const BlockEntry*>(bytes.data() + sizeof(MapHeader));
-  table_ = {table, header_->table_size};
-  // The table's size is a power of two of at least 8, so the voxels begin on a line of their own.
-  voxels_ = {reinterpret_cast<const Voxel*>(table + header_->table_size), header_->voxel_count};
-  const auto* const columns = reinterpret_cast<const float*>(voxels_.data() + voxels_.size());
-  const std::size_t column_size = mean_column_size(header_->voxel_count);
-  for (std::size_t axis = 0; axis < 3; ++axis) mean_columns_m_[axis] = columns + axis * column_size;
+  const MapLayout layout(*header_);
+  table_ = {reinterpret_cast<const BlockEntry*>(bytes.data() + layout.table), header_->table_size};
+  voxels_ = {reinterpret_cast<const Voxel*>(bytes.data() + layout.voxels), header_->voxel_count};
+  const auto* const columns = reinterpret_cast<const float*>(bytes.data() + layout.columns);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    mean_columns_m_[axis] = columns + axis * mean_column_size(header_->voxel_count);
+  }
 }
 
 }  // namespace landfix::ndt

@@ -11,6 +11,7 @@
 #include "ndt/lattice.hpp"
 #include "ndt/map_image.hpp"
 #include "ndt/voxel_map.hpp"
+#include "ndt/voxel_moments.hpp"
 
 namespace landfix::ndt {
 
@@ -28,28 +29,33 @@ class VoxelMapBuilder {
   [[nodiscard]] std::uint64_t skipped_points() const noexcept { return skipped_points_; }
   [[nodiscard]] std::size_t cells() const noexcept { return cells_.size(); }
 
-  /// The finished map: a voxel for each cell with at least kMinPoints points that span a volume. Throws
+  /// The finished map: a voxel for each cell with at least kMinVoxelPoints points that span a volume. Throws
   /// std::runtime_error if there is none.
   [[nodiscard]] MapImage build() const;
 
-  /// Fewer points say little about a covariance; the number of PCL and its followers.
-  static constexpr std::uint32_t kMinPoints = 6;
-
  private:
-  /// Moments of the points of one cell, about its centre so that their differences keep their digits.
-  struct CellSums {
-    Cell cell;
-    std::uint32_t count = 0;
-    Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
-    std::array<double, 6> squares_m2{};
+  /// Points of one block touch few cells, one after the other: after the block all is near.
+  struct Block {
+    std::uint64_t key = 0;
+    std::array<std::uint32_t, 64> cells{};  ///< index + 1 into cells_, 0: no point yet
   };
 
-  [[nodiscard]] CellSums& find_or_add(const Cell& cell);
+  struct PlacedBlock {
+    TileBlock in_map;
+    std::uint32_t index = 0;  ///< into blocks_
+  };
+
+  [[nodiscard]] std::vector<PlacedBlock> blocks_in_order() const;
+  [[nodiscard]] Block& find_or_add(std::uint64_t key);
+  void grow_table();
 
   double resolution_m_;
+  double inverse_resolution_1pm_;
   std::size_t capacity_;
-  std::vector<CellSums> cells_;
-  std::vector<std::uint32_t> table_;  ///< index + 1 into cells_, 0 is empty
+  std::vector<VoxelMoments> cells_;
+  std::vector<Block> blocks_;
+  std::vector<std::uint32_t> table_;  ///< index + 1 into blocks_, 0: empty
+  std::size_t last_block_ = 0;        ///< where the last point fell, as the next one may
   std::uint64_t points_ = 0;
   std::uint64_t skipped_points_ = 0;
 };

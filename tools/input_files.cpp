@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -11,12 +12,18 @@
 #include "ndt/map_file.hpp"
 #include "ndt/pcd.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/mapped_file.hpp"
+#include "tools/autoware_tiles.hpp"
 #include "tools/command.hpp"
 
 namespace landfix::tools {
 
 ndt::MapImage load_map_file(const std::filesystem::path& path) {
-  return ndt::load_map(platform::read_file(path), path.string());
+  const auto file = std::make_shared<const platform::MappedFile>(path);
+  if (!file->is_mapped()) return ndt::load_map(file->bytes(), path.string());
+  file->populate();
+  ndt::validate_map(file->bytes(), path.string());
+  return {file->bytes(), file};
 }
 
 std::vector<Eigen::Vector3f> load_scan(const std::filesystem::path& path, const RangeLimits& limits) {
@@ -32,6 +39,7 @@ std::vector<std::filesystem::path> list_clouds(const std::filesystem::path& path
   if (!std::filesystem::exists(path))
     throw std::runtime_error(fmt::format("{}: no such file or folder", path.string()));
   if (!std::filesystem::is_directory(path)) return {path};
+  if (std::filesystem::exists(path / kTileMetadataName)) return list_tiles(path / kTileMetadataName);
   std::vector<std::filesystem::path> clouds;
   for (const auto& entry : std::filesystem::directory_iterator(path)) {
     if (entry.is_regular_file() && entry.path().extension() == ".pcd") clouds.push_back(entry.path());

@@ -21,8 +21,8 @@ namespace landfix::tools {
 
 using ndt::kRadians_per_deg;
 
-/// Voxels that a map has room for unless more are asked for.
-inline constexpr std::size_t kMapCapacity = 4'000'000;
+/// Cells that a map has room for unless more are asked for: a city of a square kilometre at 1 m.
+inline constexpr std::size_t kMapCapacity = 16'000'000;
 
 /// Ranges between which points of a scan count; those of the reference study by default.
 struct RangeLimits {
@@ -30,15 +30,16 @@ struct RangeLimits {
   double max_m = 200.0;
 };
 
-/// A validated map. Throws std::runtime_error that says what is wrong with the file.
+/// A validated map, mapped into memory. Throws std::runtime_error that says what is wrong with the file.
 [[nodiscard]] ndt::MapImage load_map_file(const std::filesystem::path& path);
 
 /// The finite points of a PCD file within the limits, in the frame it gives them in.
 [[nodiscard]] std::vector<Eigen::Vector3f> load_scan(const std::filesystem::path& path,
                                                      const RangeLimits& limits);
 
-/// The file that `path` is, or the PCD files of the folder that it is, by name. Throws UsageError where the
-/// folder has none, std::runtime_error where there is nothing of that name.
+/// The file that `path` is, or the PCD files of the folder that it is: those that Autoware's metadata lists
+/// if the folder has it, else all by name. Throws UsageError where the folder has none, std::runtime_error
+/// where there is nothing of that name.
 [[nodiscard]] std::vector<std::filesystem::path> list_clouds(const std::filesystem::path& path);
 
 /// --min-range and --max-range.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -13,6 +14,7 @@
 #include "ndt/voxel_map.hpp"
 #include "ndt/voxel_map_builder.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/mapped_file.hpp"
 #include "tools/command.hpp"
 #include "tools/input_files.hpp"
 #include "tools/landfix_commands.hpp"
@@ -24,9 +26,26 @@ struct Arguments {
   std::vector<std::string> clouds;
   std::string output;
   double resolution_m = 1.0;
+  std::vector<double> origin_m{0.0, 0.0, 0.0};
   std::size_t capacity = kMapCapacity;
   bool json = false;
 };
+
+/// Points of a file after which its pages are given back and progress is shown.
+constexpr std::uint64_t kPointsAtATime = 1 << 20;
+
+void add_cloud(ndt::VoxelMapBuilder& builder, const std::filesystem::path& path,
+               const Eigen::Vector3d& origin_m, const std::string& progress) {
+  const platform::MappedFile file(path);
+  std::uint64_t points = 0;
+  ndt::visit_pcd_positions(file.bytes(), path.string(), [&](const Eigen::Vector3d& point_m) {
+    builder.add(origin_m + point_m);
+    if (++points % kPointsAtATime != 0) return;
+    file.drop_pages();
+    show_progress(fmt::format("{}, {} million points, {} cells", progress, builder.points() / 1'000'000,
+                              builder.cells()));
+  });
+}
 
 void make_map(const Arguments& arguments) {
   const auto began = std::chrono::steady_clock::now();
@@ -35,11 +54,12 @@ void make_map(const Arguments& arguments) {
     const auto found = list_clouds(cloud);
     files.insert(files.end(), found.begin(), found.end());
   }
+  const Eigen::Vector3d origin_m(arguments.origin_m[0], arguments.origin_m[1], arguments.origin_m[2]);
   ndt::VoxelMapBuilder builder(arguments.resolution_m, arguments.capacity);
   for (std::size_t i = 0; i < files.size(); ++i) {
-    show_progress(fmt::format("reading {} of {} clouds, {} points", i + 1, files.size(), builder.points()));
-    ndt::visit_pcd_positions(platform::read_file(files[i]), files[i].string(),
-                             [&builder](const Eigen::Vector3d& point_m) { builder.add(point_m); });
+    const std::string progress = fmt::format("reading {} of {} clouds", i + 1, files.size());
+    show_progress(progress);
+    add_cloud(builder, files[i], origin_m, progress);
   }
   show_progress("");
   const ndt::MapImage image = builder.build();
@@ -72,18 +92,29 @@ void add_map_command(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App& command = *app.add_subcommand("map", "voxel map from surveyed point clouds");
   command
-      .add_option("--pcd", arguments->clouds,
-                  "point clouds, or folders of them (ascii, binary, binary_compressed)")
+      .add_option(
+          "--pcd", arguments->clouds,
+          "point clouds (ascii, binary, binary_compressed), folders of them, or Autoware's folder of tiles\n"
+          "with its pointcloud_map_metadata.yaml")
       ->required()
-      ->type_name("FILE|DIR...");
+      ->type_name("FILE|DIR");
   command.add_option("--resolution", arguments->resolution_m, "edge of a voxel [m]")
       ->check(CLI::Range(0.05, 100.0).description(""))
       ->type_name("M")
       ->capture_default_str();
+  command
+      .add_option("--origin", arguments->origin_m,
+                  "added to every point, in double precision: where clouds lie whose single-precision\n"
+                  "coordinates count from a place of their own")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(CLI::Number.description(""))
+      ->type_name("X,Y,Z")
+      ->default_str("0,0,0");
   command.add_option("--output", arguments->output, "the map")->required()->type_name("MAP.ndt");
   command
       .add_option("--capacity", arguments->capacity,
-                  "cells that the clouds may touch; memory is set aside for them")
+                  "cells that the clouds may touch, an error beyond; 80 bytes for each that they do")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 30).description(""))
       ->type_name("N")
       ->capture_default_str();

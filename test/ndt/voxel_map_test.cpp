@@ -1,8 +1,12 @@
 #include "ndt/voxel_map.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <random>
 
 #include <Eigen/Eigenvalues>
@@ -13,6 +17,7 @@
 #include "ndt/map_file.hpp"
 #include "ndt/random_world.hpp"
 #include "ndt/voxel_map_builder.hpp"
+#include "ndt/voxel_moments.hpp"
 
 namespace landfix::ndt::test {
 namespace {
@@ -85,9 +90,83 @@ TEST(VoxelMapBuilder, AFlatVoxelIsATenthAsThickAsItIsLong) {
   EXPECT_NEAR(eigen.eigenvalues()[2] / eigen.eigenvalues()[0], 100.0, 0.01);
 }
 
+/// Voxels by the cell they are in, from a corner of the map.
+using VoxelsByCell = std::map<std::array<long, 3>, std::array<float, 15>>;
+
+[[nodiscard]] VoxelsByCell voxels_by_cell(const VoxelMap& map, const Eigen::Vector3d& corner_m) {
+  VoxelsByCell voxels;
+  visit_voxels(map, [&](const Voxel& voxel, const Eigen::Vector3d& mean_m) {
+    const Eigen::Vector3d cell = ((mean_m - corner_m) / map.resolution_m()).array().floor();
+    auto& values = voxels[{std::lround(cell.x()), std::lround(cell.y()), std::lround(cell.z())}];
+    std::copy(voxel.mean_m.begin(), voxel.mean_m.end(), values.begin());
+    std::copy(voxel.wide_1pm2.begin(), voxel.wide_1pm2.end(), values.begin() + 3);
+    std::copy(voxel.sharp_1pm2.begin(), voxel.sharp_1pm2.end(), values.begin() + 9);
+  });
+  return voxels;
+}
+
+TEST(VoxelMapBuilder, AMillionMetresAwayTheVoxelsAreTheSameToTheBit) {
+  std::vector<Eigen::Vector3d> here = random_yard(5, 20000);
+  // Coordinates that a double holds at both places.
+  for (Eigen::Vector3d& point_m : here) point_m = (point_m * 0x1p20).array().round() * 0x1p-20;
+  const Eigen::Vector3d far_m(1'000'000.0, -999'997.0, 31.0);
+  std::vector<Eigen::Vector3d> there = here;
+  for (Eigen::Vector3d& point_m : there) point_m += far_m;
+  const MapImage near = build_map(here, 1.0);
+  const MapImage far = load_map(build_map(there, 1.0).bytes(), "far.ndt");
+  const auto expected = voxels_by_cell(VoxelMap(near.bytes()), Eigen::Vector3d::Zero());
+  EXPECT_GT(expected.size(), 100U);
+  EXPECT_EQ(voxels_by_cell(VoxelMap(far.bytes()), far_m), expected);
+}
+
+TEST(VoxelMoments, TheClosedFormOfItsAxesIsAsGoodAsTheIteration) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-3.0, -0.5);
+  for (int run = 0; run < 2000; ++run) {
+    const Eigen::Matrix3d axes = random_pose(random, 0.0, 3.0).linear();
+    Eigen::Vector3d sigma_m(std::pow(10.0, exponent(random)), std::pow(10.0, exponent(random)),
+                            std::pow(10.0, exponent(random)));
+    if (run % 3 == 0) sigma_m.y() = sigma_m.x();
+    if (run % 7 == 0) sigma_m.z() = 0.0;
+    VoxelMoments moments;
+    Eigen::Matrix3Xd points(3, 40);
+    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+      points.col(i) =
+          axes * sigma_m.cwiseProduct(Eigen::Vector3d(normal(random), normal(random), normal(random)));
+      moments.add(points(0, i), points(1, i), points(2, i));
+    }
+    ASSERT_TRUE(has_shape(moments));
+    const Eigen::Matrix3Xd centred = points.colwise() - points.rowwise().mean();
+    const Eigen::Matrix3d covariance = centred * centred.transpose() / 39.0;
+    const auto expected = [](const Eigen::Matrix3d& matrix) -> Eigen::Matrix3d {
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(matrix);
+      const Eigen::Vector3d bounded = eigen.eigenvalues().cwiseMax(0.01 * eigen.eigenvalues().maxCoeff());
+      return eigen.eigenvectors() * bounded.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
+    };
+    const Voxel voxel = to_voxel(moments, 1.0);
+    const Eigen::Matrix3d sharp = expected(covariance);
+    const Eigen::Matrix3d wide = expected(covariance + Eigen::Matrix3d::Identity() / 39.0);
+    EXPECT_LT((matrix(voxel.sharp_1pm2) - sharp).norm(), 1e-6 * sharp.norm()) << run;
+    EXPECT_LT((matrix(voxel.wide_1pm2) - wide).norm(), 1e-6 * wide.norm()) << run;
+  }
+}
+
+TEST(VoxelMapBuilder, TheOrderOfThePointsHardlyMatters) {
+  std::vector<Eigen::Vector3d> points = random_yard(4, 20000);
+  const auto forward = voxels_by_cell(VoxelMap(build_map(points, 1.0).bytes()), Eigen::Vector3d::Zero());
+  std::shuffle(points.begin(), points.end(), std::mt19937_64(7));
+  const auto shuffled = voxels_by_cell(VoxelMap(build_map(points, 1.0).bytes()), Eigen::Vector3d::Zero());
+  ASSERT_EQ(shuffled.size(), forward.size());
+  for (const auto& [cell, values] : forward) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      EXPECT_NEAR(shuffled.at(cell)[i], values[i], 1e-4F * (1.0F + std::abs(values[i])));
+  }
+}
+
 TEST(VoxelMapBuilder, LeavesOutCellsWithTooFewPointsOrNoExtent) {
   VoxelMapBuilder builder(1.0, 10);
-  for (std::uint32_t i = 0; i + 1 < VoxelMapBuilder::kMinPoints; ++i) builder.add({0.1 * i, 0.5, 0.5});
+  for (std::uint32_t i = 0; i + 1 < kMinVoxelPoints; ++i) builder.add({0.1 * i, 0.5, 0.5});
   for (int i = 0; i < 50; ++i) builder.add({7.5, 7.5, 7.5});
   EXPECT_THROW((void)builder.build(), std::runtime_error);
   for (int i = 0; i < 6; ++i) builder.add({3.1 + 0.1 * i, 0.5, 0.5});
@@ -141,6 +220,62 @@ TEST(Crc32c, HasItsCheckValueHoweverTheBytesAreSplit) {
   }
 }
 
+TEST(Crc32c, TheProcessorsInstructionAgreesWithTheTable) {
+  std::mt19937_64 random(1);
+  std::vector<std::byte> bytes(1000);
+  for (std::byte& byte : bytes) byte = static_cast<std::byte>(random());
+  for (std::size_t size = 0; size < bytes.size(); size += 7) {
+    const auto some = std::span(bytes).subspan(size % 13, size / 2);
+    EXPECT_EQ(crc32c_update(kCrc32cStart, some), crc32c_update_by_table(kCrc32cStart, some)) << size;
+  }
+}
+
+TEST(MapFile, ItsTilesAreRunsThatCoverItInOrder) {
+  const MapImage image = build_map(random_yard(1, 20000), 0.25);
+  const VoxelMap map(image.bytes());
+  const MapHeader& header = map.header();
+  EXPECT_GT(header.tile_count, 4U);
+  // Each block of the directory is found in the table, with the voxels that the tile says it has.
+  const MapLayout layout(header);
+  const auto* const blocks = reinterpret_cast<const TileBlock*>(image.bytes().data() + layout.blocks);
+  std::uint32_t voxel = 0;
+  for (const TileBlock& block : std::span(blocks, header.block_count)) {
+    const BlockEntry* const entry = map.find_block(block.key);
+    ASSERT_NE(entry, nullptr);
+    EXPECT_EQ(entry->occupancy, block.occupancy);
+    EXPECT_EQ(entry->first_voxel, voxel);
+    voxel += static_cast<std::uint32_t>(std::popcount(block.occupancy));
+  }
+  EXPECT_EQ(voxel, map.voxels().size());
+}
+
+TEST(MapFile, ADirectoryThatLiesIsRefusedThoughItsChecksumsAgree) {
+  const MapImage image = build_map(random_yard(1, 20000), 0.25);
+  const MapLayout layout(VoxelMap(image.bytes()).header());
+  const auto refused_with = [&image](std::uint64_t offset, std::byte change) {
+    std::vector<std::byte> bytes(image.bytes().begin(), image.bytes().end());
+    bytes[offset] ^= change;
+    seal_map(bytes);
+    return error_of(bytes);
+  };
+  EXPECT_THAT(refused_with(layout.tiles + offsetof(TileEntry, key), std::byte{1}), HasSubstr("directory"));
+  EXPECT_THAT(refused_with(layout.tiles + offsetof(TileEntry, first_block), std::byte{1}),
+              HasSubstr("directory"));
+  EXPECT_THAT(refused_with(layout.tiles + offsetof(TileEntry, blocks) + 3, std::byte{0x80}),
+              HasSubstr("directory"));
+  EXPECT_THAT(refused_with(layout.blocks + offsetof(TileBlock, occupancy), std::byte{1}),
+              HasSubstr("directory"));
+  EXPECT_THAT(refused_with(layout.blocks + offsetof(TileBlock, key) + 4, std::byte{1}),
+              HasSubstr("directory"));
+}
+
+TEST(VoxelMap, WithoutAnImageItHasNoVoxel) {
+  const VoxelMap map;
+  EXPECT_TRUE(map.voxels().empty());
+  for (std::uint64_t key = 0; key < 100; ++key) EXPECT_EQ(map.find_block(key), nullptr);
+  visit_voxels(map, [](const Voxel& /*voxel*/, const Eigen::Vector3d& /*mean_m*/) { FAIL(); });
+}
+
 TEST(MapFile, RefusesEveryTruncationAndEveryFlippedByte) {
   const MapImage image = build_map(random_yard(1, 3000), 4.0);
   std::vector<std::byte> bytes(image.bytes().begin(), image.bytes().end());
@@ -166,8 +301,14 @@ TEST(MapFile, SaysWhatIsWrong) {
   newer[offsetof(MapHeader, version)] = std::byte{9};
   EXPECT_THAT(error_of(newer), HasSubstr("map version 9"));
   std::vector<std::byte> damaged = bytes;
+  std::vector<std::byte> damaged_voxel = bytes;
+  damaged_voxel[MapLayout(VoxelMap(image.bytes()).header()).voxels + 5] ^= std::byte{1};
+  EXPECT_THAT(error_of(damaged_voxel), ::testing::ContainsRegex("its tile from .* m on is damaged"));
+  std::vector<std::byte> longer = bytes;
+  longer.resize(bytes.size() + 3);
+  EXPECT_THAT(error_of(longer), HasSubstr("3 more than"));
   damaged.back() ^= std::byte{1};
-  EXPECT_THAT(error_of(damaged), HasSubstr("checksum"));
+  EXPECT_THAT(error_of(damaged), HasSubstr("directory of tiles is damaged"));
 }
 
 TEST(MapFile, RefusesAResolutionThatNoCellCanHave) {
@@ -178,9 +319,8 @@ TEST(MapFile, RefusesAResolutionThatNoCellCanHave) {
     std::memcpy(&header, bytes.data(), sizeof header);
     header.resolution_m = resolution_m;
     std::memcpy(bytes.data(), &header, sizeof header);
-    header.checksum = map_checksum(bytes);
-    std::memcpy(bytes.data(), &header, sizeof header);
-    EXPECT_THAT(error_of(bytes), HasSubstr("its header is damaged")) << resolution_m;
+    seal_map(bytes);
+    EXPECT_THAT(error_of(bytes), HasSubstr("its header makes no sense")) << resolution_m;
   }
 }
 

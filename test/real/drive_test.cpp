@@ -36,6 +36,8 @@ TEST(RealDrive, IsTrackedInSequence) {
   const nlohmann::json result = benchmark(drive, {"--sequence"});
   EXPECT_EQ(result["starts"], 28);
   EXPECT_EQ(result["ok_percent"], 100.0);
+  // All that is resident, the index included.
+  EXPECT_LE(result["map"]["bytes"].get<double>(), 96.0 * result["map"]["voxels"].get<double>());
 }
 
 }  // namespace
