@@ -74,6 +74,11 @@ class Localizer {
   /// The memory that `map` views must outlive it. `initial_pose`: map <- vehicle at the first sweep.
   Localizer(const VoxelMap& map, const LocalizerSettings& settings, const Pose& initial_pose);
 
+  /// Another map of the same lattice, from the next sweep on.
+  void use_map(const VoxelMap& map) noexcept { map_ = map; }
+
+  /// The last published pose.
+  [[nodiscard]] const Pose& pose() const noexcept { return last_.pose; }
   /// The velocity to undo the next sweep's distortion with.
   [[nodiscard]] const Velocity& velocity() const noexcept { return velocity_; }
 

@@ -29,6 +29,7 @@ struct VehicleSettings {
 
 struct MapSettings {
   std::filesystem::path file;  ///< empty: must come from elsewhere
+  double memory_mib = 0.0;     ///< that a map may take, else a window of it; 0: as much as it needs
 };
 
 struct InitialPoseSettings {

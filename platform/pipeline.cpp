@@ -80,6 +80,7 @@ SweepResult Pipeline::localize(const drivers::Sweep& sweep) noexcept {
   const auto points_m = finish_filter(sweep.end_utc_ns());
 
   std::int64_t began_ns = monotonic_ns();
+  if (window_ != nullptr) localizer_.use_map(window_->newest(localizer_.pose().translation()));
   const ndt::Fix fix = localizer_.localize(points_m, sweep.end_utc_ns());
   record(Stage::match, monotonic_ns() - began_ns);
 

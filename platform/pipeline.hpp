@@ -20,6 +20,7 @@
 #include "ndt/voxel_map.hpp"
 #include "platform/can_frame.hpp"
 #include "platform/latency_histogram.hpp"
+#include "platform/map_window.hpp"
 #include "platform/packet_source.hpp"
 #include "platform/pose_frames.hpp"
 
@@ -69,9 +70,10 @@ struct PipelineCounters {
 /// Allocates in its constructor and never after.
 class Pipeline {
  public:
-  /// The memory that `map` views, and `bus`, must outlive it; without a bus nothing is published.
+  /// The memory that `map` views, `bus` and `window` must outlive it; without a bus nothing is published,
+  /// with a window each sweep takes its newest map.
   Pipeline(const PipelineSettings& settings, const drivers::AnyDecoder& decoder, const ndt::VoxelMap& map,
-           FrameSink* bus);
+           FrameSink* bus, MapWindow* window = nullptr);
 
   /// Takes one packet; what came of the sweep that it completed, if it did.
   [[nodiscard]] std::optional<SweepResult> process(const UdpPacket& packet) noexcept;
@@ -103,6 +105,7 @@ class Pipeline {
   ndt::Localizer localizer_;
   PoseFrameEncoder encoder_;
   FrameSink* bus_;
+  MapWindow* window_;
   PipelineCounters counters_;
   std::int64_t decode_ns_ = 0;  ///< spent on the packets of the current sweep
   std::int64_t filter_ns_ = 0;

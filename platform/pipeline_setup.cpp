@@ -4,7 +4,7 @@
 namespace landfix::platform {
 
 Pipeline::Pipeline(const PipelineSettings& settings, const drivers::AnyDecoder& decoder,
-                   const ndt::VoxelMap& map, FrameSink* bus)
+                   const ndt::VoxelMap& map, FrameSink* bus, MapWindow* window)
     : settings_(settings),
       decoder_(decoder),
       points_(2 * settings.points_per_sweep),
@@ -12,6 +12,7 @@ Pipeline::Pipeline(const PipelineSettings& settings, const drivers::AnyDecoder& 
       filter_(settings.filter, settings.filter_capacity),
       localizer_(map, settings.localizer, settings.initial_pose),
       encoder_(settings.can_base_id),
-      bus_(bus) {}
+      bus_(bus),
+      window_(window) {}
 
 }  // namespace landfix::platform

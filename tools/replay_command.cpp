@@ -51,6 +51,19 @@ void write_svg(const Arguments& arguments, const ndt::VoxelMap& map,
   file.commit();
 }
 
+void warn_of_window(const platform::MapWindowCounters& counters) {
+  if (counters.tiles_not_fitting != 0) {
+    fmt::print(
+        stderr,
+        "landfix: in {} windows of the map {} tiles within reach found no room; raise [map] memory_mib\n",
+        counters.windows, counters.tiles_not_fitting);
+  }
+  if (counters.tiles_unreadable != 0) {
+    fmt::print(stderr, "landfix: in {} windows of the map {} tiles were damaged or could not be read\n",
+               counters.windows, counters.tiles_unreadable);
+  }
+}
+
 void replay(const Arguments& arguments) {
   const ReplaySetup setup = prepare_replay(arguments.input);
   const ndt::VoxelMap map = setup.map();
@@ -62,13 +75,15 @@ void replay(const Arguments& arguments) {
                                             ? arguments.input.config.parent_path() / "capture.pcap"
                                             : std::filesystem::path(arguments.pcap);
   platform::PcapSource source(capture);
-  platform::Pipeline pipeline(setup.settings, setup.decoder, map, bus ? &*bus : nullptr);
+  platform::Pipeline pipeline(setup.settings, setup.decoder, map, bus ? &*bus : nullptr, setup.window.get());
 
-  const ReplayResult result = run_replay(source, pipeline, [&source](const platform::SweepResult& sweep) {
+  const ReplayResult result = run_replay(source, pipeline, [&](const platform::SweepResult& sweep) {
+    if (setup.window) (void)setup.window->load();  // here, so that two replays are the same
     show_progress(fmt::format("{:3.0f} %  {}", source.percent_read(), ndt::to_string(sweep.fix.state)));
   });
   show_progress("");
   warn_of_losses(capture.string(), source.counters());
+  if (setup.window) warn_of_window(setup.window->counters());
   if (result.sweeps.empty()) {
     throw std::runtime_error(fmt::format(
         "{}: no sweep of a {} on port {}: {} packets to it, {} rejected, {} from other "

@@ -1,6 +1,10 @@
 #include "tools/replay_setup.hpp"
 
+#include <filesystem>
+#include <memory>
 #include <stdexcept>
+#include <system_error>
+#include <utility>
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
@@ -48,17 +52,27 @@ namespace {
   return settings;
 }
 
-[[nodiscard]] ndt::MapImage map_for(const platform::Configuration& configuration, const ReplayInput& input) {
+[[nodiscard]] std::filesystem::path map_path(const platform::Configuration& configuration,
+                                             const ReplayInput& input) {
   const std::filesystem::path path = input.map.empty() ? configuration.map.file : input.map;
   if (path.empty()) throw UsageError("no map: give --map, or [map] file in the configuration");
-  ndt::MapImage image = load_map_file(path);
-  const double resolution_m = ndt::VoxelMap(image.bytes()).resolution_m();
-  if (resolution_m != configuration.matcher.resolution_m) {
-    throw std::runtime_error(
-        fmt::format("{} has a resolution of {} m, [matcher] resolution_m in {} says {} m; they must agree",
-                    path.string(), resolution_m, input.config.string(), configuration.matcher.resolution_m));
+  return path;
+}
+
+/// The map, whole if its memory allows, else a window of it.
+void add_map(ReplaySetup& setup, const std::filesystem::path& path) {
+  constexpr double kBytes_per_mib = 1 << 20;
+  const double memory_bytes = setup.configuration.map.memory_mib * kBytes_per_mib;
+  std::error_code no_size;
+  const auto file_bytes = static_cast<double>(std::filesystem::file_size(path, no_size));
+  if (memory_bytes == 0.0 || no_size || file_bytes <= memory_bytes) {
+    setup.image = load_map_file(path);
+    return;
   }
-  return image;
+  const platform::MapWindowSettings settings{.memory_bytes = static_cast<std::size_t>(memory_bytes),
+                                             .reach_m = setup.configuration.sensor.max_range_m};
+  setup.window =
+      std::make_unique<platform::MapWindow>(path, settings, setup.settings.initial_pose.translation());
 }
 
 }  // namespace
@@ -68,8 +82,16 @@ ReplaySetup prepare_replay(const ReplayInput& input) {
   const drivers::SensorModel& model = find_sensor(configuration.sensor.model);
   const platform::PipelineSettings settings = settings_for(configuration, model, input);
   const drivers::AnyDecoder decoder = decoder_for(model, configuration.sensor);
-  ndt::MapImage image = map_for(configuration, input);
-  return {std::move(configuration), model, settings, decoder, std::move(image)};
+  ReplaySetup setup{std::move(configuration), model, settings, decoder, {}, nullptr};
+  const std::filesystem::path path = map_path(setup.configuration, input);
+  add_map(setup, path);
+  const double resolution_m = setup.map().resolution_m();
+  if (resolution_m != setup.configuration.matcher.resolution_m) {
+    throw std::runtime_error(fmt::format(
+        "{} has a resolution of {} m, [matcher] resolution_m in {} says {} m; they must agree", path.string(),
+        resolution_m, input.config.string(), setup.configuration.matcher.resolution_m));
+  }
+  return setup;
 }
 
 }  // namespace landfix::tools

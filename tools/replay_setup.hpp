@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 #include "drivers/any_decoder.hpp"
@@ -10,6 +11,7 @@
 #include "ndt/pose.hpp"
 #include "ndt/voxel_map.hpp"
 #include "platform/configuration.hpp"
+#include "platform/map_window.hpp"
 #include "platform/pipeline.hpp"
 
 namespace landfix::tools {
@@ -27,10 +29,12 @@ struct ReplaySetup {
   const drivers::SensorModel& model;
   platform::PipelineSettings settings;
   drivers::AnyDecoder decoder;
-  ndt::MapImage image;
+  ndt::MapImage image;                          ///< the whole map, or none
+  std::unique_ptr<platform::MapWindow> window;  ///< where the map is larger than its memory
 
-  /// A view of `image`.
-  [[nodiscard]] ndt::VoxelMap map() const { return ndt::VoxelMap(image.bytes()); }
+  [[nodiscard]] ndt::VoxelMap map() const {
+    return window ? window->newest(settings.initial_pose.translation()) : ndt::VoxelMap(image.bytes());
+  }
 };
 
 /// Throws UsageError where the map or the initial pose is given nowhere, std::runtime_error where a file does

@@ -1,5 +1,5 @@
-// A map file: refused, or read within its bytes. The checksums are made right first, which no fuzzer
-// would guess.
+// A map file: refused, or read within its bytes, whole or as a window. The checksums are made right first,
+// which no fuzzer would guess.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +11,7 @@
 
 #include "fuzz/fuzz_file.hpp"
 #include "ndt/map_file.hpp"
+#include "ndt/map_window.hpp"
 #include "ndt/objective.hpp"
 #include "ndt/pair_groups.hpp"
 #include "ndt/voxel_map_builder.hpp"
@@ -48,6 +49,19 @@ void make_credible(std::span<std::byte> file) {
   if (counts_are_small && MapLayout(header).end == file.size()) seal_map(file);
 }
 
+/// Reads two tiles or so of the file, if it is one.
+void read_window(std::span<const std::byte> file) {
+  const ReadAt read_at = [file](std::uint64_t offset, std::span<std::byte> into) {
+    if (offset > file.size() || into.size() > file.size() - offset) return false;
+    std::copy_n(file.begin() + static_cast<std::ptrdiff_t>(offset), into.size(), into.begin());
+    return true;
+  };
+  WindowAssembler windows(read_map_directory(read_at, file.size(), "fuzz.ndt"), read_at, 10.0);
+  MapMemory memory(2048);
+  (void)windows.assemble(memory.bytes(), Eigen::Vector3d::Zero());
+  visit_voxels(VoxelMap(memory.bytes()), [](const Voxel& /*voxel*/, const Eigen::Vector3d& /*mean_m*/) {});
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -62,6 +76,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto bytes = std::as_writable_bytes(std::span(file));
   make_credible(bytes);
   try {
+    read_window(bytes);
     const MapImage image = load_map(bytes, "fuzz.ndt");
     const VoxelMap map(image.bytes());
     groups.assign(scan, 1);

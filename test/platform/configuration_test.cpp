@@ -45,6 +45,7 @@ TEST(Configuration, TheExampleSaysTheDefaults) {
   EXPECT_EQ(example.sensor.model, "vlp16");  // these two have none
   EXPECT_EQ(example.map.file, std::filesystem::path(LANDFIX_CONFIG_FOLDER) / "map.ndt");
 
+  EXPECT_EQ(example.map.memory_mib, defaults.map.memory_mib);
   EXPECT_EQ(example.sensor.calibration, defaults.sensor.calibration);
   EXPECT_EQ(example.sensor.address, defaults.sensor.address);
   EXPECT_EQ(example.sensor.port, defaults.sensor.port);
@@ -95,6 +96,7 @@ max_range_m = 100
 sensor_pose = [1.5, 0, 1.8, 0.0, 2.0, 90.0]
 [map]
 file = "/maps/town.ndt"
+memory_mib = 512.5
 [initial_pose]
 pose = [10, 20, 0, 0, 0, -90]
 [filter]
@@ -123,6 +125,7 @@ address = "unix:/run/landfix/metrics"
   EXPECT_NEAR(angles.pitch_rad, 2.0 * M_PI / 180.0, 1e-12);
   EXPECT_NEAR(angles.yaw_rad, M_PI / 2, 1e-12);
   EXPECT_EQ(read.map.file, "/maps/town.ndt");
+  EXPECT_EQ(read.map.memory_mib, 512.5);
   EXPECT_EQ(read.initial_pose.pose->translation(), Eigen::Vector3d(10, 20, 0));
   EXPECT_EQ(read.filter.kind, ndt::FilterKind::ring);
   EXPECT_EQ(read.filter.leaf_m, 1.0);

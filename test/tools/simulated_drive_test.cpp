@@ -52,9 +52,11 @@ class SimulatedDrive : public testing::Test {
     const Outcome simulated = landfix(
         {"simulate", "--route", "street", "--length", "120", "--sensor", "vlp16", "--output", path("")});
     ASSERT_EQ(simulated.code, 0) << simulated.error;
-    const Outcome mapped =
-        landfix({"map", "--pcd", path("map.pcd"), "--resolution", "1", "--output", path("map.ndt")});
+    const Outcome mapped = landfix(
+        {"map", "--pcd", path("map.pcd"), "--resolution", "1", "--output", path("map.ndt"), "--json"});
     ASSERT_EQ(mapped.code, 0) << mapped.error;
+    const auto map = nlohmann::json::parse(mapped.out);
+    EXPECT_LE(map["bytes"].get<double>(), 96.0 * map["voxels"].get<double>()) << "the index included";
   }
   static void TearDownTestSuite() { directory_.reset(); }
 
@@ -143,6 +145,30 @@ TEST_F(SimulatedDrive, ReplaysToTheSameBytes) {
   EXPECT_GT(text_of(path("1.log")).size(), 1000U);
   EXPECT_EQ(text_of(path("1.log")), text_of(path("2.log")));
   EXPECT_EQ(text_of(path("1.svg")), text_of(path("2.svg")));
+}
+
+TEST_F(SimulatedDrive, WithAWindowOfTheMapThePosesAreThoseOfTheWholeMap) {
+  const double map_mib = static_cast<double>(std::filesystem::file_size(path("map.ndt"))) / (1 << 20);
+  const auto write_config = [](const std::string& name, double memory_mib) {
+    std::string text = text_of(path("config.toml"));
+    text.replace(text.find("[map]"), 5, fmt::format("[map]\nmemory_mib = {:.3f}", memory_mib));
+    text.replace(text.find("[sensor]"), 8, "[sensor]\nmax_range_m = 20.0");
+    std::ofstream(path(name)) << text;
+  };
+  write_config("whole.toml", 1.1 * map_mib);
+  write_config("window.toml", 0.9 * map_mib);  // for two windows
+  EXPECT_EQ(prepare_replay({.config = path("whole.toml")}).window, nullptr);
+  EXPECT_NE(prepare_replay({.config = path("window.toml")}).window, nullptr);
+  for (const std::string name : {"whole", "window"}) {
+    const Outcome outcome =
+        landfix({"replay", "--config", path(name + ".toml"), "--trajectory", path(name + ".tum"), "--json"});
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    const auto report = nlohmann::json::parse(outcome.out);
+    EXPECT_GE(report["tracked"].get<int>() + 1, report["sweeps"].get<int>());
+    EXPECT_TRUE(report["heap_calls"].is_null() || report["heap_calls"] == 0);
+  }
+  EXPECT_GT(text_of(path("whole.tum")).size(), 1000U);
+  EXPECT_EQ(text_of(path("window.tum")), text_of(path("whole.tum")));
 }
 
 TEST_F(SimulatedDrive, SendsItsPosesAsProtectedFrames) {
