@@ -24,13 +24,14 @@ namespace landfix::ndt {
 /// A symmetric 3 x 3 matrix: xx xy xz yy yz zz.
 using Symmetric3f = std::array<float, 6>;
 
-/// One cell's points as a normal distribution. The covariance is kept twice: `sharp` as estimated, and `wide`
-/// with resolution^2 / (count - 1) added along each axis, which widens the basin of convergence.
+/// One cell's points as a normal distribution. The covariance is kept twice: `wide` with
+/// resolution^2 / (count - 1) added along each axis, which widens the basin of convergence, and `sharp` as a
+/// scan's points will scatter.
 struct alignas(64) Voxel {
   std::array<float, 3> mean_m{};  ///< from the cell's lower corner
   std::uint32_t count = 0;        ///< points that made it
   Symmetric3f wide_1pm2{};        ///< inverse of the wide covariance
-  Symmetric3f sharp_1pm2{};       ///< inverse of the covariance
+  Symmetric3f sharp_1pm2{};       ///< inverse of the sharp covariance
 };
 static_assert(sizeof(Voxel) == 64);
 

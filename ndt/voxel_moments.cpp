@@ -5,20 +5,34 @@
 namespace landfix::ndt {
 namespace {
 
-/// A voxel is at least a tenth as thick as it is long (Magnusson): its inverse stays bounded.
+/// A wide voxel is at least a tenth as thick as it is long (Magnusson): its inverse stays bounded.
 constexpr double kSmallestEigenvalueRatio = 0.01;
+/// A sharp voxel is as thin as its points, but no survey is better than this.
+constexpr double kThinnest_m = 0.005;
+/// A scan's points lie farther from a surface than those it was surveyed with: they have a noise of their
+/// own, and another viewpoint. So variances count for more, but not those of the surface's extent. Tuned on a
+/// real drive, where the median error falls by a fifth.
+constexpr double kVarianceFactor = 1.0 / 0.3;
+constexpr double kExtent_m = 0.2;
 /// Points closer together than this have no shape.
 constexpr double kSmallestExtent_m = 1e-4;
 
-[[nodiscard]] Symmetric3f inverse_of_bounded(const Eigen::Matrix3d& axes,
-                                             const Eigen::Vector3d& variances_m2) {
-  const Eigen::Vector3d bounded_m2 =
-      variances_m2.cwiseMax(kSmallestEigenvalueRatio * variances_m2.maxCoeff());
-  const Eigen::Matrix3d scaled = axes * bounded_m2.cwiseInverse().asDiagonal();
+[[nodiscard]] Symmetric3f inverse(const Eigen::Matrix3d& axes, const Eigen::Array3d& variances_m2) {
+  const Eigen::Matrix3d scaled = axes * variances_m2.inverse().matrix().asDiagonal();
   const auto element = [&](Eigen::Index row, Eigen::Index column) {
     return static_cast<float>(scaled.row(row).dot(axes.row(column)));
   };
   return {element(0, 0), element(0, 1), element(0, 2), element(1, 1), element(1, 2), element(2, 2)};
+}
+
+[[nodiscard]] Eigen::Array3d wide(const Eigen::Array3d& variances_m2, double inflation_m2) {
+  const Eigen::Array3d inflated_m2 = variances_m2 + inflation_m2;
+  return inflated_m2.max(kSmallestEigenvalueRatio * inflated_m2.maxCoeff());
+}
+
+[[nodiscard]] Eigen::Array3d sharp(const Eigen::Array3d& variances_m2) {
+  const Eigen::Array3d bounded_m2 = variances_m2.max(kThinnest_m * kThinnest_m);
+  return (kVarianceFactor * bounded_m2).min(bounded_m2.max(kExtent_m * kExtent_m));
 }
 
 [[nodiscard]] Eigen::Vector3d mean_of(const VoxelMoments& moments) noexcept {
@@ -55,8 +69,8 @@ Voxel to_voxel(const VoxelMoments& moments, double resolution_m) noexcept {
     voxel.mean_m[axis] = static_cast<float>(mean_m[static_cast<Eigen::Index>(axis)] + 0.5 * resolution_m);
   }
   voxel.count = moments.count;
-  voxel.sharp_1pm2 = inverse_of_bounded(eigen.eigenvectors(), eigen.eigenvalues());
-  voxel.wide_1pm2 = inverse_of_bounded(eigen.eigenvectors(), eigen.eigenvalues().array() + inflation_m2);
+  voxel.sharp_1pm2 = inverse(eigen.eigenvectors(), sharp(eigen.eigenvalues()));
+  voxel.wide_1pm2 = inverse(eigen.eigenvectors(), wide(eigen.eigenvalues(), inflation_m2));
   return voxel;
 }
 

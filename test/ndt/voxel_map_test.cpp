@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <map>
 #include <random>
@@ -49,6 +50,26 @@ TEST(Lattice, BlockKeysKeepTheirCorner) {
   }
 }
 
+/// The inverse of a covariance whose variances along its axes are changed first.
+Eigen::Matrix3d inverse_with(const Eigen::Matrix3d& covariance_m2,
+                             const std::function<double(double variance_m2, double largest_m2)>& changed) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance_m2);
+  Eigen::Vector3d inverse;
+  for (int i = 0; i < 3; ++i) inverse[i] = 1.0 / changed(eigen.eigenvalues()[i], eigen.eigenvalues()[2]);
+  return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+/// A variance divided by 0.3, but not beyond (0.2 m)^2 unless it is beyond that by itself; at least (5 mm)^2.
+double sharp_variance_m2(double variance_m2, double /*largest_m2*/) {
+  const double bounded_m2 = std::max(variance_m2, 25e-6);
+  return std::min(bounded_m2 / 0.3, std::max(bounded_m2, 0.04));
+}
+
+/// At least a hundredth of the largest.
+double wide_variance_m2(double variance_m2, double largest_m2) {
+  return std::max(variance_m2, 0.01 * largest_m2);
+}
+
 TEST(VoxelMapBuilder, AVoxelHasTheMomentsOfItsPoints) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
@@ -75,19 +96,21 @@ TEST(VoxelMapBuilder, AVoxelHasTheMomentsOfItsPoints) {
   EXPECT_LT((corner + Eigen::Map<const Eigen::Vector3f>(voxel.mean_m.data()).cast<double>() - mean).norm(),
             1e-6);
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-  EXPECT_LT((matrix(voxel.sharp_1pm2) * covariance - identity).norm(), 1e-4);
+  const Eigen::Matrix3d sharp = inverse_with(covariance, sharp_variance_m2);
+  EXPECT_LT((matrix(voxel.sharp_1pm2) - sharp).norm(), 1e-4 * sharp.norm());
   EXPECT_LT((matrix(voxel.wide_1pm2) * (covariance + identity / 199.0) - identity).norm(), 1e-4);
 }
 
-TEST(VoxelMapBuilder, AFlatVoxelIsATenthAsThickAsItIsLong) {
+TEST(VoxelMapBuilder, AFlatVoxelIsAsThickAsASurveyIsGoodWhereItIsSharp) {
   std::vector<Eigen::Vector3d> plane;
   for (int i = 0; i < 10; ++i) {
     for (int j = 0; j < 10; ++j) plane.emplace_back(0.05 + 0.1 * i, 0.05 + 0.1 * j, 0.5);
   }
   const MapImage image = build_map(plane, 1.0);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> sharp(
       matrix(VoxelMap(image.bytes()).voxels()[0].sharp_1pm2));
-  EXPECT_NEAR(eigen.eigenvalues()[2] / eigen.eigenvalues()[0], 100.0, 0.01);
+  EXPECT_NEAR(1.0 / sharp.eigenvalues()[2], 25e-6 / 0.3, 1e-8);            // 5 mm
+  EXPECT_NEAR(1.0 / sharp.eigenvalues()[0], 0.0825 * 100.0 / 99.0, 1e-6);  // of the plane's extent
 }
 
 /// Voxels by the cell they are in, from a corner of the map.
@@ -139,14 +162,10 @@ TEST(VoxelMoments, TheClosedFormOfItsAxesIsAsGoodAsTheIteration) {
     ASSERT_TRUE(has_shape(moments));
     const Eigen::Matrix3Xd centred = points.colwise() - points.rowwise().mean();
     const Eigen::Matrix3d covariance = centred * centred.transpose() / 39.0;
-    const auto expected = [](const Eigen::Matrix3d& matrix) -> Eigen::Matrix3d {
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(matrix);
-      const Eigen::Vector3d bounded = eigen.eigenvalues().cwiseMax(0.01 * eigen.eigenvalues().maxCoeff());
-      return eigen.eigenvectors() * bounded.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
-    };
     const Voxel voxel = to_voxel(moments, 1.0);
-    const Eigen::Matrix3d sharp = expected(covariance);
-    const Eigen::Matrix3d wide = expected(covariance + Eigen::Matrix3d::Identity() / 39.0);
+    const Eigen::Matrix3d sharp = inverse_with(covariance, sharp_variance_m2);
+    const Eigen::Matrix3d wide =
+        inverse_with(covariance + Eigen::Matrix3d::Identity() / 39.0, wide_variance_m2);
     EXPECT_LT((matrix(voxel.sharp_1pm2) - sharp).norm(), 1e-6 * sharp.norm()) << run;
     EXPECT_LT((matrix(voxel.wide_1pm2) - wide).norm(), 1e-6 * wide.norm()) << run;
   }
