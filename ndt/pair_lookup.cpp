@@ -17,6 +17,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Floats = hn::CappedTag<float, 16>;
+using V = hn::Vec<Floats>;
 
 HWY_ATTR inline std::int32_t floor_of(float value) {
   const auto truncated = static_cast<std::int32_t>(value);
@@ -39,40 +40,36 @@ HWY_ATTR inline BlockRange block_range(float position_m, float radius_m, float i
 alignas(64) constexpr std::array<std::uint32_t, 16> kCount{0, 1, 2,  3,  4,  5,  6,  7,
                                                            8, 9, 10, 11, 12, 13, 14, 15};
 
-/// One point, and where the next pair goes.
+/// Of one point, in registers: vector stores may alias all that is in memory.
 struct Seeker {
-  const VoxelMap& map;
-  const GroupPoints& points;
-  PairColumns& columns;
-  std::size_t point;
-  LookUp found;
+  std::array<const float*, 3> mean_m;  ///< columns of the map
+  V x_m;
+  V y_m;
+  V z_m;
+  V radius_m2;
 };
 
-/// Appends the voxels of a block that are near the point. `corner_m`: the block's, from the group's origin.
-HWY_ATTR inline void seek_in_block(Seeker& seeker, const BlockEntry& block,
-                                   const std::array<float, 3>& corner_m) {
+/// Appends the means of a block's voxels that are near the point. `corner_m`: the block's, from the group's
+/// origin.
+HWY_INLINE void seek_in_block(const Seeker& seeker, const BlockEntry& block,
+                              const std::array<float, 3>& corner_m, PairColumns& columns, LookUp& found) {
   const Floats d;
   const hn::RebindToUnsigned<Floats> du;
-  const auto& position_m = seeker.points.position_m[seeker.point];
-  const auto& point_m = seeker.points.point_m[seeker.point];
-  PairColumns& columns = seeker.columns;
   const auto count = static_cast<std::size_t>(std::popcount(block.occupancy));
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const std::size_t first = block.first_voxel + i;
-    const auto x = hn::Add(hn::LoadU(d, seeker.map.mean_column_m(0) + first), hn::Set(d, corner_m[0]));
-    const auto y = hn::Add(hn::LoadU(d, seeker.map.mean_column_m(1) + first), hn::Set(d, corner_m[1]));
-    const auto z = hn::Add(hn::LoadU(d, seeker.map.mean_column_m(2) + first), hn::Set(d, corner_m[2]));
-    const auto dx = hn::Sub(x, hn::Set(d, position_m[0]));
-    const auto dy = hn::Sub(y, hn::Set(d, position_m[1]));
-    const auto dz = hn::Sub(z, hn::Set(d, position_m[2]));
-    const auto distance_m2 = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
-    const auto is_near =
-        hn::And(hn::Le(distance_m2, hn::Set(d, seeker.points.radius_m * seeker.points.radius_m)),
-                hn::FirstN(d, count - i));
+    const V x = hn::Add(hn::LoadU(d, seeker.mean_m[0] + first), hn::Set(d, corner_m[0]));
+    const V y = hn::Add(hn::LoadU(d, seeker.mean_m[1] + first), hn::Set(d, corner_m[1]));
+    const V z = hn::Add(hn::LoadU(d, seeker.mean_m[2] + first), hn::Set(d, corner_m[2]));
+    const V dx = hn::Sub(x, seeker.x_m);
+    const V dy = hn::Sub(y, seeker.y_m);
+    const V dz = hn::Sub(z, seeker.z_m);
+    const V distance_m2 = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+    const auto is_near = hn::And(hn::Le(distance_m2, seeker.radius_m2), hn::FirstN(d, count - i));
     const std::size_t near = hn::CountTrue(d, is_near);
-    const std::size_t n = seeker.found.pairs;
+    const std::size_t n = found.pairs;
     if (n + near > kGroupPairs) {
-      seeker.found.dropped += near;
+      found.dropped += near;
       continue;
     }
     // Compressed in a register first: some processors compress into memory by microcode.
@@ -90,22 +87,40 @@ HWY_ATTR inline void seek_in_block(Seeker& seeker, const BlockEntry& block,
     put(d, hn::Compress(z, is_near), columns.mean_m[2]);
     const auto index = hn::Add(hn::Load(du, kCount.data()), hn::Set(du, static_cast<std::uint32_t>(first)));
     put(du, hn::Compress(index, hn::RebindMask(du, is_near)), columns.voxel);
-    for (std::size_t axis = 0; axis < 3; ++axis) put(d, hn::Set(d, point_m[axis]), columns.point_m[axis]);
-    put(du, hn::Set(du, static_cast<std::uint32_t>(seeker.point)), columns.point);
-    seeker.found.pairs += near;
+    found.pairs += near;
+  }
+}
+
+/// Writes the point beside each of its pairs, from `first` on.
+HWY_INLINE void put_point(const GroupPoints& points, std::size_t point, std::size_t first, std::size_t last,
+                          PairColumns& columns) {
+  const Floats d;
+  const hn::RebindToUnsigned<Floats> du;
+  for (std::size_t n = first; n < last; n += hn::Lanes(d)) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      hn::StoreU(hn::Set(d, points.point_m[point][axis]), d, columns.point_m[axis].data() + n);
+    }
+    hn::StoreU(hn::Set(du, static_cast<std::uint32_t>(point)), du, columns.point.data() + n);
   }
 }
 
 HWY_ATTR LookUp look_up_pairs_simd(const VoxelMap& map, const GroupPoints& points, PairColumns& columns) {
+  const Floats d;
   const auto resolution_m = static_cast<float>(map.resolution_m());
   const float inverse_resolution_1pm = 1.0F / resolution_m;
   const Cell& origin = points.origin;
-  Seeker seeker{map, points, columns, 0, {}};
-  for (; seeker.point < points.count; ++seeker.point) {
-    const auto& p = points.position_m[seeker.point];
+  LookUp found;
+  for (std::size_t point = 0; point < points.count; ++point) {
+    const auto& p = points.position_m[point];
     const BlockRange x = block_range(p[0], points.radius_m, inverse_resolution_1pm, origin.i);
     const BlockRange y = block_range(p[1], points.radius_m, inverse_resolution_1pm, origin.j);
     const BlockRange z = block_range(p[2], points.radius_m, inverse_resolution_1pm, origin.k);
+    const Seeker seeker{.mean_m = {map.mean_column_m(0), map.mean_column_m(1), map.mean_column_m(2)},
+                        .x_m = hn::Set(d, p[0]),
+                        .y_m = hn::Set(d, p[1]),
+                        .z_m = hn::Set(d, p[2]),
+                        .radius_m2 = hn::Set(d, points.radius_m * points.radius_m)};
+    const std::size_t first_pair = found.pairs;
     // One loop over the one, two, four or eight of them: a processor foresees its end better than three.
     const unsigned nx = x.last != x.first ? 1 : 0;
     const unsigned ny = y.last != y.first ? 1 : 0;
@@ -119,10 +134,12 @@ HWY_ATTR LookUp look_up_pairs_simd(const VoxelMap& map, const GroupPoints& point
       seek_in_block(seeker, *block,
                     {static_cast<float>(4 * bi - origin.i) * resolution_m,
                      static_cast<float>(4 * bj - origin.j) * resolution_m,
-                     static_cast<float>(4 * bk - origin.k) * resolution_m});
+                     static_cast<float>(4 * bk - origin.k) * resolution_m},
+                    columns, found);
     }
+    put_point(points, point, first_pair, found.pairs, columns);
   }
-  return seeker.found;
+  return found;
 }
 
 }  // namespace HWY_NAMESPACE

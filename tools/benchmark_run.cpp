@@ -80,7 +80,7 @@ class Landfix {
   }
 
  private:
-  static constexpr std::size_t kCapacity = 1 << 18;
+  static constexpr std::size_t kCapacity = 1 << 16;
 
   const ndt::VoxelMap& map_;
   double leaf_m_;

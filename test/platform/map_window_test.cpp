@@ -10,9 +10,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "ndt/voxel_moments.hpp"
 #include "ndt/map_layout.hpp"
 #include "ndt/voxel_map_builder.hpp"
+#include "ndt/voxel_moments.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/hand_over.hpp"
 #include "platform/heap_counter.hpp"
