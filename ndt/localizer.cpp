@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "ndt/covariance.hpp"
+
 namespace landfix::ndt {
 
 std::string_view to_string(State state) noexcept {
@@ -55,21 +57,30 @@ Fix Localizer::localize(std::span<const Eigen::Vector3f> points_m, std::int64_t 
   const auto seconds_since = [stamp_utc_ns](const StampedPose& before) {
     return static_cast<double>(stamp_utc_ns - before.stamp_utc_ns) * 1e-9;
   };
-  Fix fix{.at = {stamp_utc_ns, prediction}, .match = matcher_.match(map_, points_m, prediction)};
+  reckoning_.pass(seconds_since(last_));
+  Fix fix{.at = {stamp_utc_ns, prediction},
+          .match = matcher_.match(map_, points_m, prediction, reckoning_.sigma_m())};
   fix.state = next_state(fix);
   if (fix.state >= State::degraded) {
     fix.at.pose = fix.match.pose;
-    if (state_ != State::init && seconds_since(last_matched_) >= settings_.shortest_baseline_s) {
-      velocity_ = velocity_between(last_matched_, fix.at);
-      last_matched_ = fix.at;
-    } else if (state_ == State::init) {
-      last_matched_ = fix.at;
+    fix.covariance = fix.match.covariance + from_vehicle_covariance(distortion_.covariance(), fix.at.pose);
+    const bool is_baseline = seconds_since(last_matched_) >= settings_.shortest_baseline_s;
+    if (fix.match.weak.count == 0) {
+      reckoning_.hold(state_ != State::init && is_baseline);
+      if (state_ >= State::degraded) distortion_.observe(pose_log(prediction.inverse() * fix.at.pose));
     }
+    if (state_ != State::init && is_baseline)
+      velocity_ = steady_part(velocity_between(last_matched_, fix.at));
+    if (state_ == State::init || is_baseline) last_matched_ = fix.at;
+  } else if (fix.state == State::predicted) {
+    fix.covariance = last_covariance_ + from_vehicle_covariance(reckoning_.covariance(), fix.at.pose);
   } else if (fix.state == State::lost) {
     // Wait where the last usable pose was: after a leap of the clock the prediction may be anywhere.
     fix.at.pose = last_.pose;
     velocity_.setZero();
+    reckoning_ = DeadReckoning();
   }
+  if (fix.state >= State::degraded) last_covariance_ = fix.covariance;
   fix.velocity = velocity_;
   last_ = fix.at;
   state_ = fix.state;
@@ -84,12 +95,14 @@ State Localizer::next_state(const Fix& fix) const noexcept {
   const bool is_near = (fix.match.pose.translation() - prediction.translation()).norm() <
                            share * settings_.innovation_limit_m &&
                        angle_between(fix.match.pose, prediction) < share * settings_.innovation_limit_rad;
+  const double unmatched_s = static_cast<double>(fix.at.stamp_utc_ns - last_matched_.stamp_utc_ns) * 1e-9;
+  // A match that follows the prediction in weak directions is worth no more than that.
+  const bool is_anchored = fix.match.weak.count == 0 || unmatched_s <= settings_.lost_after_s;
   const Fit fit = judge(fix.match, settings_.gates);
-  if (fit != Fit::none && (is_near || state_ == State::init)) {
-    return fit == Fit::good ? State::tracking : State::degraded;
+  if (fit != Fit::none && ((is_near && is_anchored) || state_ == State::init)) {
+    return fit == Fit::good && fix.match.weak.count == 0 ? State::tracking : State::degraded;
   }
   if (state_ == State::init || state_ == State::lost) return state_;
-  const double unmatched_s = static_cast<double>(fix.at.stamp_utc_ns - last_matched_.stamp_utc_ns) * 1e-9;
   return unmatched_s > settings_.lost_after_s ? State::lost : State::predicted;
 }
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "ndt/dead_reckoning.hpp"
 #include "ndt/matcher.hpp"
 #include "ndt/motion.hpp"
 #include "ndt/voxel_map.hpp"
@@ -19,7 +20,7 @@ enum class State : std::uint8_t {
   no_data = 1,    ///< the sensor is silent
   lost = 2,       ///< predicted for too long: the pose is not to be used
   predicted = 3,  ///< this sweep could not be matched; the pose is where the motion leads
-  degraded = 4,   ///< matched, but the map explains the sweep badly
+  degraded = 4,   ///< matched, but the map explains the sweep badly, or does not hold every direction
   tracking = 5,
 };
 [[nodiscard]] std::string_view to_string(State state) noexcept;
@@ -65,6 +66,8 @@ struct Fix {
   StampedPose at;
   State state = State::init;
   Velocity velocity = Velocity::Zero();
+  /// Of the pose, as MatchResult's, with what the motion within the sweep adds.
+  Matrix6 covariance = 1e6 * Matrix6::Identity();
   MatchResult match;
 };
 
@@ -95,6 +98,9 @@ class Localizer {
   StampedPose last_;          ///< published
   StampedPose last_matched_;  ///< by a match, TRACKING or DEGRADED
   Velocity velocity_ = Velocity::Zero();
+  DeadReckoning reckoning_;
+  SweepDistortion distortion_;
+  Matrix6 last_covariance_ = Matrix6::Zero();  ///< by a match
   State state_ = State::init;
   bool any_sweep_ = false;
 };

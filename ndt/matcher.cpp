@@ -5,7 +5,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "ndt/covariance.hpp"
+#include "ndt/assessment.hpp"
 #include "ndt/newton_search.hpp"
 #include "ndt/objective.hpp"
 
@@ -65,8 +65,8 @@ struct Phases {
 
 }  // namespace
 
-MatchResult Matcher::match(const VoxelMap& map, std::span<const Eigen::Vector3f> points_m,
-                           const Pose& guess) noexcept {
+MatchResult Matcher::match(const VoxelMap& map, std::span<const Eigen::Vector3f> points_m, const Pose& guess,
+                           std::optional<double> guess_sigma_m) noexcept {
   MatchResult result;
   const ScoreConstants constants = score_constants(settings_.outlier_ratio, map.resolution_m());
   result.points = points_m.size();
@@ -97,7 +97,7 @@ MatchResult Matcher::match(const VoxelMap& map, std::span<const Eigen::Vector3f>
   if (settings_.sharpen) {
     best = search.climb(sharp, groups_, phases.sharp);
     score_wide();
-    result.sharpened = is_trustworthy(best, wide, points.points_matched, map.resolution_m());
+    result.sharpened = is_trustworthy(best, wide, points.all.points, map.resolution_m());
   }
   if (!result.sharpened) {
     best = search.climb(wide, groups_, phases.wide);
@@ -105,15 +105,22 @@ MatchResult Matcher::match(const VoxelMap& map, std::span<const Eigen::Vector3f>
   }
   result.converged = best.converged;
   result.pose = best.pose;
+  if (best.objective.pairs != 0) {
+    const Assessment assessment =
+        assess(map, groups_, best.pose, result.sharpened ? Covariance::sharp : Covariance::wide, constants,
+               {.pose = guess, .sigma_m = guess_sigma_m.value_or(map.resolution_m())});
+    result.pose = assessment.pose;
+    result.covariance = assessment.covariance;
+    result.weak = assessment.weak;
+  }
   result.pairs_dropped += groups_.dropped_pairs();
-  result.covariance = pose_covariance(best.objective, best.pose);
   result.iterations = search.iterations();
-  result.points_matched = points.points_matched;
+  result.points_matched = points.all.points;
   if (!points_m.empty())
     result.transformation_probability = result.score / static_cast<double>(points_m.size());
-  if (points.points_matched != 0) {
-    result.nearest_voxel_likelihood = points.best_sum / static_cast<double>(points.points_matched);
-  }
+  result.nearest_voxel_likelihood = points.all.mean();
+  result.no_ground_points_matched = points.no_ground.points;
+  result.no_ground_nearest_voxel_likelihood = points.no_ground.mean();
   return result;
 }
 

@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include <Eigen/Core>
 
+#include "ndt/degeneracy.hpp"
 #include "ndt/pair_groups.hpp"
 #include "ndt/pose.hpp"
 #include "ndt/score.hpp"
@@ -26,16 +28,20 @@ struct MatcherSettings {
 };
 
 struct MatchResult {
-  Pose pose = Pose::Identity();             ///< map <- vehicle
-  Matrix6 covariance = Matrix6::Zero();     ///< x y z roll pitch yaw [m, rad], frame `map`
+  Pose pose = Pose::Identity();  ///< map <- vehicle
+  /// x y z roll pitch yaw [m, rad], frame `map`; a variance of 1e6 where nothing overlaps.
+  Matrix6 covariance = 1e6 * Matrix6::Identity();
+  WeakDirections weak{};                    ///< that the scan does not hold: the pose follows the guess there
   double score = 0.0;                       ///< of the wide covariances, over all points
   double transformation_probability = 0.0;  ///< score a point
   double nearest_voxel_likelihood = 0.0;    ///< best voxel's score, mean over the points that have one
-  double best_likelihood = 1.0;             ///< the best score that a point can have with one voxel
+  double no_ground_nearest_voxel_likelihood = 0.0;  ///< of the points above the ground (kAboveGround_m)
+  double best_likelihood = 1.0;                     ///< the best score that a point can have with one voxel
   std::size_t points = 0;
-  std::size_t points_matched = 0;  ///< with a voxel near
-  std::size_t pairs_dropped = 0;   ///< candidates that found no room in their group, over the whole search
-  int iterations = 0;              ///< evaluations of the objective
+  std::size_t points_matched = 0;            ///< with a voxel near
+  std::size_t no_ground_points_matched = 0;  ///< of these, above the ground
+  std::size_t pairs_dropped = 0;  ///< candidates that found no room in their group, over the whole search
+  int iterations = 0;             ///< evaluations of the objective
   bool converged = false;
   bool sharpened = false;
 };
@@ -49,9 +55,11 @@ class Matcher {
   explicit Matcher(const MatcherSettings& settings, std::size_t max_points = kMaxPoints);
 
   /// `points_m`: the filtered scan, frame `vehicle`, neighbours near each other (VoxelGrid). `guess`: map <-
-  /// vehicle.
+  /// vehicle. `guess_sigma_m`: how far it may be off, as the displacement of points; nothing: a voxel's
+  /// length.
   [[nodiscard]] MatchResult match(const VoxelMap& map, std::span<const Eigen::Vector3f> points_m,
-                                  const Pose& guess) noexcept;
+                                  const Pose& guess,
+                                  std::optional<double> guess_sigma_m = std::nullopt) noexcept;
 
   static constexpr std::size_t kMaxPoints = 1 << 15;
 

@@ -8,6 +8,12 @@ Velocity velocity_between(const StampedPose& from, const StampedPose& to) noexce
   return pose_log(from.pose.inverse() * to.pose) / duration_s;
 }
 
+Velocity steady_part(const Velocity& velocity) noexcept {
+  Velocity steady = velocity;
+  steady.segment<3>(2).setZero();  // z, roll, pitch
+  return steady;
+}
+
 Pose predict(const StampedPose& from, const Velocity& velocity, std::int64_t stamp_utc_ns) noexcept {
   return from.pose * pose_exp(velocity * (static_cast<double>(stamp_utc_ns - from.stamp_utc_ns) * 1e-9));
 }

@@ -21,6 +21,11 @@ using Velocity = Twist;
 /// The constant velocity that leads from one pose to a later one.
 [[nodiscard]] Velocity velocity_between(const StampedPose& from, const StampedPose& to) noexcept;
 
+/// What of a road vehicle's velocity lasts from one sweep to the next: it drives, slips sideways and turns.
+/// Heave, roll and pitch swing on the springs, several times a second: what they did a sweep ago is not what
+/// they do now, and to undo it adds error (on the simulated routes it doubles that of roll and pitch).
+[[nodiscard]] Velocity steady_part(const Velocity& velocity) noexcept;
+
 /// Where a constant velocity leads.
 [[nodiscard]] Pose predict(const StampedPose& from, const Velocity& velocity,
                            std::int64_t stamp_utc_ns) noexcept;

@@ -7,13 +7,6 @@
 namespace landfix::ndt {
 namespace {
 
-[[nodiscard]] Pose moved(const Pose& pose, const Twist& step) noexcept {
-  Pose result = pose;
-  result.linear() = rotation_exp(step.tail<3>()) * pose.linear();
-  result.translation() += step.head<3>();
-  return result;
-}
-
 /// How bold a step is: how much of the curvature it trusts, and its damping after Levenberg and Marquardt.
 struct Boldness {
   static constexpr double kMinDamping = 1e-5;

@@ -48,31 +48,39 @@ namespace {
   return place;
 }
 
+void add_group(const VoxelMap& map, const PairGroups& groups, std::size_t index, const Pose& pose,
+               const ScoreConstants& constants, Objective& sum) noexcept {
+  const PairGroup& group = groups.groups()[index];
+  if (group.pair_count == 0) return;
+  const GroupSums part = sum_pairs(groups.columns(index), group.pair_count,
+                                   place_of(group, map.resolution_m(), groups.reach(), pose), constants);
+  const Eigen::Vector3d arm_m = pose.linear() * group.centre_m;
+  const Eigen::Matrix3d arm_skew_m = skew(arm_m);
+  const Eigen::Vector3d pull = Eigen::Map<const Eigen::Vector3f>(part.gradient.data()).cast<double>();
+  const Eigen::Vector3d turn = Eigen::Map<const Eigen::Vector3f>(part.gradient.data() + 3).cast<double>();
+  sum.pairs += static_cast<std::size_t>(part.pairs);
+  sum.score += static_cast<double>(part.score);
+  sum.gradient.head<3>() += pull;
+  sum.gradient.tail<3>() += turn + arm_m.cross(pull);
+  sum.definite += about_the_vehicle(to_matrix(part.definite), arm_skew_m);
+  sum.curvature += about_the_vehicle(to_matrix(part.curvature), arm_skew_m);
+}
+
 }  // namespace
 
 Objective evaluate(const VoxelMap& map, PairGroups& groups, const Pose& pose, Covariance covariance,
                    const ScoreConstants& constants) noexcept {
   groups.update(map, pose, covariance);
   Objective sum;
-  double pairs = 0.0;
-  for (std::size_t i = 0; i < groups.groups().size(); ++i) {
-    const PairGroup& group = groups.groups()[i];
-    if (group.pair_count == 0) continue;
-    const GroupSums part = sum_pairs(groups.columns(i), group.pair_count,
-                                     place_of(group, map.resolution_m(), groups.reach(), pose), constants);
-    const Eigen::Vector3d arm_m = pose.linear() * group.centre_m;
-    const Eigen::Matrix3d arm_skew_m = skew(arm_m);
-    const Eigen::Vector3d pull = Eigen::Map<const Eigen::Vector3f>(part.gradient.data()).cast<double>();
-    const Eigen::Vector3d turn = Eigen::Map<const Eigen::Vector3f>(part.gradient.data() + 3).cast<double>();
-    pairs += static_cast<double>(part.pairs);
-    sum.score += static_cast<double>(part.score);
-    sum.gradient.head<3>() += pull;
-    sum.gradient.tail<3>() += turn + arm_m.cross(pull);
-    sum.definite += about_the_vehicle(to_matrix(part.definite), arm_skew_m);
-    sum.curvature += about_the_vehicle(to_matrix(part.curvature), arm_skew_m);
-  }
-  sum.pairs = static_cast<std::size_t>(pairs);
+  for (std::size_t i = 0; i < groups.groups().size(); ++i) add_group(map, groups, i, pose, constants, sum);
   return sum;
+}
+
+Objective evaluate_group(const VoxelMap& map, const PairGroups& groups, std::size_t group, const Pose& pose,
+                         const ScoreConstants& constants) noexcept {
+  Objective part;
+  add_group(map, groups, group, pose, constants, part);
+  return part;
 }
 
 PointScores score_points(const VoxelMap& map, const PairGroups& groups, const Pose& pose,
@@ -92,10 +100,13 @@ PointScores score_points(const VoxelMap& map, const PairGroups& groups, const Po
       float& best = least[columns.point[n]];
       best = std::min(best, distances[n]);
     }
+    const auto points_m = groups.points_m(i);
+    const auto above_ground_m = static_cast<float>(kAboveGround_m - group.centre_m.z());
     for (std::size_t p = 0; p < group.point_count; ++p) {
       if (std::isinf(least[p])) continue;
-      ++sum.points_matched;
-      sum.best_sum += static_cast<double>(d1 * std::exp(-0.5F * d2 * least[p]));
+      const auto score = static_cast<double>(d1 * std::exp(-0.5F * d2 * least[p]));
+      sum.all.add(score);
+      if (points_m[p].z() > above_ground_m) sum.no_ground.add(score);
     }
   }
   return sum;

@@ -30,10 +30,25 @@ struct Objective {
 [[nodiscard]] Objective evaluate(const VoxelMap& map, PairGroups& groups, const Pose& pose,
                                  Covariance covariance, const ScoreConstants& constants) noexcept;
 
-/// What single points score, each with its best voxel.
+/// Of one of the groups, whose pairs are up to date at the pose.
+[[nodiscard]] Objective evaluate_group(const VoxelMap& map, const PairGroups& groups, std::size_t group,
+                                       const Pose& pose, const ScoreConstants& constants) noexcept;
+
+/// What single points score, each with its best voxel; of those that have one within reach.
+struct BestScores {
+  double sum = 0.0;
+  std::size_t points = 0;
+
+  void add(double score) noexcept {
+    sum += score;
+    ++points;
+  }
+  [[nodiscard]] double mean() const noexcept { return points != 0 ? sum / static_cast<double>(points) : 0.0; }
+};
+
 struct PointScores {
-  double best_sum = 0.0;
-  std::size_t points_matched = 0;  ///< with a voxel within reach
+  BestScores all;
+  BestScores no_ground;  ///< of points more than kAboveGround_m above the vehicle's origin
 };
 
 /// Of pairs that are up to date at the pose (see `evaluate`).

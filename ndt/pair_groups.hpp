@@ -73,6 +73,10 @@ class PairGroups {
   [[nodiscard]] std::span<const PairGroup> groups() const noexcept {
     return std::span<const PairGroup>(groups_).first(group_count_);
   }
+  /// Of one group, relative to its centre.
+  [[nodiscard]] std::span<const Eigen::Vector3f> points_m(std::size_t group) const noexcept {
+    return std::span(points_m_).subspan(groups_[group].first_point, groups_[group].point_count);
+  }
   [[nodiscard]] const PairColumns& columns(std::size_t group) const noexcept { return columns_[group]; }
   [[nodiscard]] const Reach& reach() const noexcept { return reach_; }
   /// Candidates that did not fit their group since the points were assigned.

@@ -89,6 +89,19 @@ Pose make_pose(const Eigen::Vector3d& translation_m, const RollPitchYaw& angles)
   return pose;
 }
 
+Pose moved(const Pose& pose, const Twist& step) noexcept {
+  Pose result = pose;
+  result.linear() = rotation_exp(step.tail<3>()) * pose.linear();
+  result.translation() += step.head<3>();
+  return result;
+}
+
+Twist step_between(const Pose& from, const Pose& to) noexcept {
+  Twist step;
+  step << to.translation() - from.translation(), rotation_log(to.linear() * from.linear().transpose());
+  return step;
+}
+
 double angle_between(const Pose& a, const Pose& b) noexcept {
   return rotation_log(a.linear().transpose() * b.linear()).norm();
 }

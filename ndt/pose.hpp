@@ -46,6 +46,11 @@ struct RollPitchYaw {
 [[nodiscard]] RollPitchYaw to_roll_pitch_yaw(const Eigen::Matrix3d& rotation) noexcept;
 [[nodiscard]] Pose make_pose(const Eigen::Vector3d& translation_m, const RollPitchYaw& angles) noexcept;
 
+/// The left perturbation about the vehicle: R <- exp(w) R, t <- t + v, for a twist (v, w) in map axes; and
+/// the one that leads from a pose to another.
+[[nodiscard]] Pose moved(const Pose& pose, const Twist& step) noexcept;
+[[nodiscard]] Twist step_between(const Pose& from, const Pose& to) noexcept;
+
 /// Angle of the rotation between two poses [rad].
 [[nodiscard]] double angle_between(const Pose& a, const Pose& b) noexcept;
 

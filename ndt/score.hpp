@@ -12,6 +12,11 @@ struct ScoreConstants {
   double d2 = 1.0;
 };
 
+/// Points lower than this above the vehicle's origin, frame `vehicle`, may be of the ground: it scores well
+/// wherever on the road the vehicle is. The usual margin (Autoware's), but in the vehicle's frame, so that it
+/// holds on slopes.
+inline constexpr double kAboveGround_m = 0.8;
+
 /// The plain exponential of the reference study: no outliers.
 inline constexpr ScoreConstants kPlainExponential{};
 

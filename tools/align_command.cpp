@@ -28,21 +28,50 @@ struct Arguments {
   bool json = false;
 };
 
+/// Sigma in m along an axis, in deg about one.
+[[nodiscard]] double sigma_of(const ndt::WeakDirection& weak) {
+  return weak.axis < ndt::Axis::roll ? weak.sigma : weak.sigma / kRadians_per_deg;
+}
+
+[[nodiscard]] nlohmann::json weak_to_json(const ndt::WeakDirections& weak) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const ndt::WeakDirection& direction : weak.all()) {
+    list.push_back(
+        {{"axis", ndt::to_string(direction.axis)},
+         {"direction", std::vector<double>(direction.direction.begin(), direction.direction.end())},
+         {direction.axis < ndt::Axis::roll ? "sigma_m" : "sigma_deg", sigma_of(direction)}});
+  }
+  return list;
+}
+
+[[nodiscard]] std::string weak_to_text(const ndt::WeakDirections& weak) {
+  std::string text;
+  for (const ndt::WeakDirection& direction : weak.all()) {
+    text += fmt::format("{}{} (1 sigma {:.3f} {})", text.empty() ? "" : ", ", ndt::to_string(direction.axis),
+                        sigma_of(direction), direction.axis < ndt::Axis::roll ? "m" : "deg");
+  }
+  return text.empty() ? "all" : "not " + text + ": as in the guess";
+}
+
 void print_json(const ndt::MatchResult& result, double fitness_score, double match_ms) {
   // Row-major; the matrix is symmetric, so Eigen's order does not matter.
   const std::vector<double> covariance(result.covariance.data(),
                                        result.covariance.data() + result.covariance.size());
-  const nlohmann::json object{{"converged", result.converged},
-                              {"pose", pose_to_json(result.pose)},
-                              {"covariance", covariance},
-                              {"iterations", result.iterations},
-                              {"fitness_score", fitness_score},
-                              {"transformation_probability", result.transformation_probability},
-                              {"nearest_voxel_likelihood", result.nearest_voxel_likelihood},
-                              {"match_ms", match_ms},
-                              {"points", result.points},
-                              {"points_matched", result.points_matched},
-                              {"fit", ndt::to_string(ndt::judge(result, {}))}};
+  const nlohmann::json object{
+      {"converged", result.converged},
+      {"pose", pose_to_json(result.pose)},
+      {"covariance", covariance},
+      {"iterations", result.iterations},
+      {"fitness_score", fitness_score},
+      {"transformation_probability", result.transformation_probability},
+      {"nearest_voxel_likelihood", result.nearest_voxel_likelihood},
+      {"no_ground_nearest_voxel_likelihood", result.no_ground_nearest_voxel_likelihood},
+      {"no_ground_points_matched", result.no_ground_points_matched},
+      {"weak_directions", weak_to_json(result.weak)},
+      {"match_ms", match_ms},
+      {"points", result.points},
+      {"points_matched", result.points_matched},
+      {"fit", ndt::to_string(ndt::judge(result, {}))}};
   fmt::print("{}\n", object.dump(2));
 }
 
@@ -69,16 +98,18 @@ void print_text(const ndt::MatchResult& result, double fitness_score, double mat
       "1 sigma           {:.4f} {:.4f} {:.4f} m, {:.4f} {:.4f} {:.4f} deg\n"
       "iterations        {}\n"
       "fitness score     {:.6f} m^2 (mean squared distance to the nearest voxel's mean)\n"
-      "transformation probability {:.4f}, nearest voxel likelihood {:.4f}\n"
+      "transformation probability {:.4f}, nearest voxel likelihood {:.4f}, above the ground {:.4f}\n"
       "points            {}, {} with a voxel near\n"
+      "directions held   {}\n"
       "fit               {}\n"
       "match             {:.3f} ms\n",
       result.converged ? "converged" : "NOT converged: the guess may be too far from the truth", t.x(), t.y(),
       t.z(), angles.roll_rad / kRadians_per_deg, angles.pitch_rad / kRadians_per_deg,
       angles.yaw_rad / kRadians_per_deg, sigma(0), sigma(1), sigma(2), sigma(3) / kRadians_per_deg,
       sigma(4) / kRadians_per_deg, sigma(5) / kRadians_per_deg, result.iterations, fitness_score,
-      result.transformation_probability, result.nearest_voxel_likelihood, result.points,
-      result.points_matched, explain(ndt::judge(result, {})), match_ms);
+      result.transformation_probability, result.nearest_voxel_likelihood,
+      result.no_ground_nearest_voxel_likelihood, result.points, result.points_matched,
+      weak_to_text(result.weak), explain(ndt::judge(result, {})), match_ms);
 }
 
 void align(const Arguments& arguments) {

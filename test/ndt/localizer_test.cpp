@@ -1,9 +1,12 @@
 #include "ndt/localizer.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
+#include "ndt/covariance.hpp"
+#include "ndt/degenerate_world.hpp"
 #include "ndt/random_world.hpp"
 
 namespace landfix::ndt::test {
@@ -117,6 +120,41 @@ TEST_F(Drive, DoesNotBelieveALeap) {
   EXPECT_GT((fix.match.pose.translation() - truth(5).translation()).norm(), 0.5);
   EXPECT_EQ(fix.state, State::predicted);
   EXPECT_LT(error_m(fix, 5), 0.1);
+}
+
+TEST(Localizer, GoesOnAsBeforeAlongACorridorAndSaysSo) {
+  const std::vector<Eigen::Vector2d> places{{-8.0, 2.0}, {-4.5, -2.5}, {-1.0, 3.0}, {2.0, -1.0}};
+  const MapImage image = build_map(joined(corridor(1, 120000, -25.0, 60.0), pillars(2, 4000, places)), 1.0);
+  const VoxelMap map(image.bytes());
+  const auto world = joined(corridor(3, 6000, -25.0, 60.0), pillars(4, 200, places));
+  const auto truth_m = [](int sweep) { return -5.0 + 0.4 * sweep; };
+  Localizer localizer(map, {}, make_pose({-5.0, 0.0, 0.0}, {}));
+  double before_m = 0.0;
+  double sigma_before_m = 0.0;
+  for (int sweep = 0; sweep < 90; ++sweep) {
+    std::vector<Eigen::Vector3d> near;
+    for (const Eigen::Vector3d& point_m : world) {
+      if (std::abs(point_m.x() - truth_m(sweep)) < 12.0) near.push_back(point_m);
+    }
+    const Fix fix =
+        localizer.localize(seen_from(near, make_pose({truth_m(sweep), 0.0, 0.0}, {})), kSweep_ns * sweep);
+    const Eigen::Vector3d place_m = fix.at.pose.translation();
+    EXPECT_NEAR(place_m.y(), 0.0, 0.05) << sweep;
+    const double sigma_m = std::sqrt(to_vehicle_covariance(fix.covariance, fix.at.pose)(0, 0));
+    if (sweep < 20) {
+      EXPECT_EQ(fix.state, State::tracking) << sweep;
+    } else if (sweep > 50) {
+      // 12 m and more behind the last pillar.
+      EXPECT_EQ(fix.state, State::degraded) << sweep;
+      ASSERT_EQ(fix.match.weak.count, 1U) << sweep;
+      EXPECT_EQ(fix.match.weak.at[0].axis, Axis::longitudinal);
+      EXPECT_NEAR(place_m.x() - before_m, 0.4, 0.02) << sweep;
+      EXPECT_GT(sigma_m, sigma_before_m) << sweep;
+      EXPECT_LT(std::abs(place_m.x() - truth_m(sweep)), 3.0 * sigma_m + 0.05) << sweep;
+    }
+    before_m = place_m.x();
+    sigma_before_m = sigma_m;
+  }
 }
 
 TEST(Judge, NeedsConvergenceAndAScore) {

@@ -322,6 +322,35 @@ TEST(Matcher, WorksAMillionMetresFromTheOrigin) {
   }
 }
 
+TEST(Matcher, ScoresThePointsAboveTheGroundByThemselves) {
+  const Yard yard(8);
+  constexpr auto kAbove_m = static_cast<float>(kAboveGround_m);
+  const auto above = std::count_if(yard.scan.begin(), yard.scan.end(),
+                                   [](const Eigen::Vector3f& point) { return point.z() > kAbove_m; });
+  const MatchResult result = Matcher({}).match(yard.map, yard.scan, yard.truth);
+  EXPECT_GT(result.no_ground_points_matched, 0.9 * static_cast<double>(above));
+  EXPECT_LE(result.no_ground_points_matched, static_cast<std::size_t>(above));
+  EXPECT_GT(result.no_ground_nearest_voxel_likelihood, 0.6 * kConstants.d1);
+
+  // Walls and poles that the map does not have stand on its ground: only this score tells.
+  std::vector<Eigen::Vector3f> elsewhere;
+  const Eigen::Matrix3f to_vehicle = yard.truth.linear().transpose().cast<float>();
+  for (Eigen::Vector3f point : yard.scan) {
+    if (point.z() > kAbove_m) point += to_vehicle * Eigen::Vector3f(0.5F, 0.5F, 3.0F);
+    elsewhere.push_back(point);
+  }
+  MatcherSettings still;
+  still.max_iterations = 1;
+  const MatchResult moved_walls = Matcher(still).match(yard.map, elsewhere, yard.truth);
+  EXPECT_LT(moved_walls.no_ground_points_matched, result.no_ground_points_matched);
+  EXPECT_LT(moved_walls.no_ground_nearest_voxel_likelihood, 0.9 * result.no_ground_nearest_voxel_likelihood);
+
+  const std::vector<Eigen::Vector3f> ground(1, Eigen::Vector3f(0.0F, 0.0F, -50.0F));
+  const MatchResult none = Matcher({}).match(yard.map, ground, yard.truth);
+  EXPECT_EQ(none.no_ground_points_matched, 0U);
+  EXPECT_EQ(none.no_ground_nearest_voxel_likelihood, 0.0);
+}
+
 TEST(Matcher, ReturnsTheGuessWhereNothingOverlaps) {
   const Yard yard(4);
   const Pose far = make_pose({5000.0, 0.0, 0.0}, {.yaw_rad = 0.3});

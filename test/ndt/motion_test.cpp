@@ -82,5 +82,10 @@ TEST(Deskew, OnlyPlacesTheSensorWhereNothingMovesOrNothingIsTimed) {
   EXPECT_TRUE(deskew.from_start(kStartUtcNs + 100'000'000).isApprox(Pose::Identity()));
 }
 
+TEST(SteadyPart, DrivesSlipsAndTurns) {
+  const Velocity velocity = (Velocity() << 10.0, 0.1, 0.2, 0.03, 0.04, 0.5).finished();
+  EXPECT_EQ(steady_part(velocity), (Velocity() << 10.0, 0.1, 0.0, 0.0, 0.0, 0.5).finished());
+}
+
 }  // namespace
 }  // namespace landfix::ndt
