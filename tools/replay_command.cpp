@@ -96,9 +96,11 @@ void replay(const Arguments& arguments) {
   if (!arguments.trajectory.empty()) platform::write_tum(arguments.trajectory, trajectory);
   if (bus) bus->commit();
   if (!arguments.svg.empty()) write_svg(arguments, map, trajectory, truth);
-  ReplayReport report{.result = result, .pipeline = pipeline, .evaluation = {}};
-  if (!arguments.truth.empty() && !trajectory.empty())
+  ReplayReport report{.result = result, .pipeline = pipeline, .evaluation = {}, .covariances = {}};
+  if (!arguments.truth.empty() && !trajectory.empty()) {
     report.evaluation = platform::evaluate(truth, trajectory);
+    report.covariances = check_covariances(result.sweeps, truth);
+  }
   fmt::print("{}", arguments.json ? to_json(report).dump(2) + "\n" : to_text(report));
 }
 

@@ -85,6 +85,13 @@ nlohmann::ordered_json to_json(const ReplayReport& report) {
   object["rss_mib"] = peak_resident_mib();
   object["truncated"] = result.truncated;
   if (report.evaluation) object["evaluation"] = to_json(*report.evaluation);
+  if (report.covariances) {
+    const CovarianceCheck& check = *report.covariances;
+    object["nees"] = {{"sweeps", check.sweeps},    {"mean", check.per_degree_of_freedom},
+                      {"x", check.by_axis[0]},     {"y", check.by_axis[1]},
+                      {"z", check.by_axis[2]},     {"roll", check.by_axis[3]},
+                      {"pitch", check.by_axis[4]}, {"yaw", check.by_axis[5]}};
+  }
   return object;
 }
 
@@ -126,6 +133,10 @@ std::string to_text(const ReplayReport& report) {
                       result.page_faults, peak_resident_mib());
   if (result.truncated) text += "the capture ends in the middle of a record: it has been cut short\n";
   if (report.evaluation) text += to_table(*report.evaluation);
+  if (report.covariances) {
+    text += fmt::format("covariance   squared errors are {:.2f} times what it says\n",
+                        report.covariances->per_degree_of_freedom);
+  }
   return text;
 }
 

@@ -8,6 +8,7 @@
 
 #include "platform/evaluation.hpp"
 #include "platform/pipeline.hpp"
+#include "tools/covariance_check.hpp"
 #include "tools/replay_run.hpp"
 
 namespace landfix::tools {
@@ -16,6 +17,7 @@ struct ReplayReport {
   const ReplayResult& result;
   const platform::Pipeline& pipeline;
   std::optional<platform::Evaluation> evaluation;  ///< where the truth is known
+  std::optional<CovarianceCheck> covariances;
 };
 
 [[nodiscard]] nlohmann::ordered_json to_json(const ReplayReport& report);

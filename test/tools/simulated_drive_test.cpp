@@ -98,6 +98,17 @@ TEST_F(SimulatedDrive, IsFollowedToCentimetres) {
   RecordProperty("heading_rmse_deg", errors["heading_deg"]["rmse"].dump());
 }
 
+TEST_F(SimulatedDrive, SaysHowFarOffItMayBe) {
+  const nlohmann::json check = replay_against_truth()["nees"];
+  EXPECT_GT(check["sweeps"], 100);
+  EXPECT_GT(check["mean"], 0.5);
+  EXPECT_LT(check["mean"], 2.0);
+  for (const char* const axis : {"x", "y", "z", "roll", "pitch", "yaw"}) {
+    EXPECT_GT(check[axis], 0.25) << axis;
+    EXPECT_LT(check[axis], 4.0) << axis;
+  }
+}
+
 TEST_F(SimulatedDrive, NeedsDeskew) {
   const double with_m = replay_against_truth()["evaluation"]["ate_m"]["rmse"];
   const double without_m = replay_against_truth({"--no-deskew"})["evaluation"]["ate_m"]["rmse"];
