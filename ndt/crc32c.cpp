@@ -35,7 +35,7 @@ constexpr bool kHasInstruction = true;
 LANDFIX_CRC_TARGET inline std::uint32_t step(std::uint32_t crc, std::uint64_t word) noexcept {
   return static_cast<std::uint32_t>(_mm_crc32_u64(crc, word));
 }
-[[nodiscard]] bool processor_has_instruction() noexcept { return __builtin_cpu_supports("sse4.2") != 0; }
+[[nodiscard]] bool processor_has_instruction() noexcept { return __builtin_cpu_supports("sse4.2"); }
 #elif defined(__aarch64__)
 constexpr bool kHasInstruction = true;
 #define LANDFIX_CRC_TARGET __attribute__((target("+crc")))

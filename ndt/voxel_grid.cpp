@@ -152,8 +152,8 @@ std::span<const std::uint32_t> VoxelGrid::list_cells() noexcept {
   std::size_t count = 0;
   for (std::size_t n = 0; n < order.size(); ++n) {
     const Block& ahead = blocks_[order[std::min(n + kBlocksAhead, order.size() - 1)].index];
-    __builtin_prefetch(&ahead[0]);
-    __builtin_prefetch(&ahead[4]);
+    __builtin_prefetch(ahead.data());
+    __builtin_prefetch(ahead.data() + 4);
     const std::uint32_t block = order[n].index;
     for (std::uint32_t cell = 0; cell < 8; ++cell) {
       // Without a branch, as none would foresee which cells are empty.

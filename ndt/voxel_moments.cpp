@@ -14,6 +14,9 @@ constexpr double kThinnest_m = 0.005;
 /// real drive, where the median error falls by a fifth.
 constexpr double kVarianceFactor = 1.0 / 0.3;
 constexpr double kExtent_m = 0.2;
+/// Where few points of a surface reach into a cell beyond its border, they are its edge and not its middle:
+/// their spread is blurred by so many resolutions over their number.
+constexpr double kFewPoints = 0.15;
 /// Points closer together than this have no shape.
 constexpr double kSmallestExtent_m = 1e-4;
 
@@ -30,8 +33,8 @@ constexpr double kSmallestExtent_m = 1e-4;
   return inflated_m2.max(kSmallestEigenvalueRatio * inflated_m2.maxCoeff());
 }
 
-[[nodiscard]] Eigen::Array3d sharp(const Eigen::Array3d& variances_m2) {
-  const Eigen::Array3d bounded_m2 = variances_m2.max(kThinnest_m * kThinnest_m);
+[[nodiscard]] Eigen::Array3d sharp(const Eigen::Array3d& variances_m2, double blur_m) {
+  const Eigen::Array3d bounded_m2 = variances_m2.max(kThinnest_m * kThinnest_m) + blur_m * blur_m;
   return (kVarianceFactor * bounded_m2).min(bounded_m2.max(kExtent_m * kExtent_m));
 }
 
@@ -69,7 +72,8 @@ Voxel to_voxel(const VoxelMoments& moments, double resolution_m) noexcept {
     voxel.mean_m[axis] = static_cast<float>(mean_m[static_cast<Eigen::Index>(axis)] + 0.5 * resolution_m);
   }
   voxel.count = moments.count;
-  voxel.sharp_1pm2 = inverse(eigen.eigenvectors(), sharp(eigen.eigenvalues()));
+  voxel.sharp_1pm2 = inverse(eigen.eigenvectors(),
+                             sharp(eigen.eigenvalues(), kFewPoints * resolution_m / (moments.count - 1.0)));
   voxel.wide_1pm2 = inverse(eigen.eigenvectors(), wide(eigen.eigenvalues(), inflation_m2));
   return voxel;
 }

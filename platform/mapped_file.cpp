@@ -24,12 +24,15 @@ namespace {
 /// A descriptor for as long as it takes to map it.
 struct Descriptor {
   int number;
+  explicit Descriptor(int opened) noexcept : number(opened) {}
   ~Descriptor() { ::close(number); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
 };
 
 [[nodiscard]] void* address_of(std::span<const std::byte> bytes) noexcept {
-  return const_cast<std::byte*>(
-      bytes.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast): as mmap gave it
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): as mmap gave it
+  return const_cast<std::byte*>(bytes.data());
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // landfix decode: a capture to point clouds, one file a sweep.
 #include <map>
 #include <memory>
-#include <ranges>
 #include <string>
 #include <vector>
 
@@ -38,7 +37,10 @@ struct Arguments {
 };
 
 std::string names_of(const std::vector<const SensorModel*>& models) {
-  return fmt::format("{}", fmt::join(models | std::views::transform(&SensorModel::name), ", "));
+  std::vector<std::string_view> names;
+  names.reserve(models.size());
+  for (const SensorModel* const model : models) names.push_back(model->name);
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 /// The sensor that was asked for, or the only one that the capture can hold.

@@ -21,7 +21,9 @@ std::string PclRival::name() { return "PCL"; }
 void PclRival::set_map(std::span<const Eigen::Vector3d> /*points_m*/) {}
 void PclRival::build_map() {}
 void PclRival::set_scan(std::span<const Eigen::Vector3f> /*points_m*/) {}
+// NOLINTNEXTLINE(readability-convert-member-functions-to-static): with PCL it is none
 std::size_t PclRival::filter() { return 0; }
+// NOLINTNEXTLINE(readability-convert-member-functions-to-static): with PCL it is none
 Found PclRival::match(const ndt::Pose& guess) { return {.pose = guess}; }
 
 }  // namespace landfix::tools

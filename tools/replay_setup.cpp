@@ -54,7 +54,7 @@ namespace {
 
 [[nodiscard]] std::filesystem::path map_path(const platform::Configuration& configuration,
                                              const ReplayInput& input) {
-  const std::filesystem::path path = input.map.empty() ? configuration.map.file : input.map;
+  std::filesystem::path path = input.map.empty() ? configuration.map.file : input.map;
   if (path.empty()) throw UsageError("no map: give --map, or [map] file in the configuration");
   return path;
 }

@@ -1,6 +1,7 @@
 #include "tools/sensor_setup.hpp"
 
-#include <ranges>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +13,8 @@ namespace landfix::tools {
 
 const drivers::SensorModel& find_sensor(const std::string& name) {
   if (const drivers::SensorModel* const model = drivers::find_sensor_model(name)) return *model;
-  const auto names = drivers::sensor_models() | std::views::transform(&drivers::SensorModel::name);
+  std::vector<std::string_view> names;
+  for (const drivers::SensorModel& model : drivers::sensor_models()) names.push_back(model.name);
   throw UsageError(fmt::format("no sensor '{}'; there are {}", name, fmt::join(names, ", ")));
 }
 

@@ -60,8 +60,10 @@ Eigen::Matrix3d inverse_with(const Eigen::Matrix3d& covariance_m2,
 }
 
 /// A variance divided by 0.3, but not beyond (0.2 m)^2 unless it is beyond that by itself; at least (5 mm)^2.
-double sharp_variance_m2(double variance_m2, double /*largest_m2*/) {
-  const double bounded_m2 = std::max(variance_m2, 25e-6);
+/// Blurred by 0.15 m over n - 1 first, at a resolution of 1 m.
+double sharp_variance_m2(double variance_m2, double n) {
+  const double blur_m = 0.15 / (n - 1.0);
+  const double bounded_m2 = std::max(variance_m2, 25e-6) + blur_m * blur_m;
   return std::min(bounded_m2 / 0.3, std::max(bounded_m2, 0.04));
 }
 
@@ -96,7 +98,8 @@ TEST(VoxelMapBuilder, AVoxelHasTheMomentsOfItsPoints) {
   EXPECT_LT((corner + Eigen::Map<const Eigen::Vector3f>(voxel.mean_m.data()).cast<double>() - mean).norm(),
             1e-6);
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-  const Eigen::Matrix3d sharp = inverse_with(covariance, sharp_variance_m2);
+  const Eigen::Matrix3d sharp =
+      inverse_with(covariance, [](double v, double) { return sharp_variance_m2(v, 200.0); });
   EXPECT_LT((matrix(voxel.sharp_1pm2) - sharp).norm(), 1e-4 * sharp.norm());
   EXPECT_LT((matrix(voxel.wide_1pm2) * (covariance + identity / 199.0) - identity).norm(), 1e-4);
 }
@@ -109,8 +112,8 @@ TEST(VoxelMapBuilder, AFlatVoxelIsAsThickAsASurveyIsGoodWhereItIsSharp) {
   const MapImage image = build_map(plane, 1.0);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> sharp(
       matrix(VoxelMap(image.bytes()).voxels()[0].sharp_1pm2));
-  EXPECT_NEAR(1.0 / sharp.eigenvalues()[2], 25e-6 / 0.3, 1e-8);            // 5 mm
-  EXPECT_NEAR(1.0 / sharp.eigenvalues()[0], 0.0825 * 100.0 / 99.0, 1e-6);  // of the plane's extent
+  EXPECT_NEAR(1.0 / sharp.eigenvalues()[2], sharp_variance_m2(0.0, 100.0), 1e-8);
+  EXPECT_NEAR(1.0 / sharp.eigenvalues()[0], sharp_variance_m2(0.0825 * 100.0 / 99.0, 100.0), 1e-6);
 }
 
 /// Voxels by the cell they are in, from a corner of the map.
@@ -163,7 +166,8 @@ TEST(VoxelMoments, TheClosedFormOfItsAxesIsAsGoodAsTheIteration) {
     const Eigen::Matrix3Xd centred = points.colwise() - points.rowwise().mean();
     const Eigen::Matrix3d covariance = centred * centred.transpose() / 39.0;
     const Voxel voxel = to_voxel(moments, 1.0);
-    const Eigen::Matrix3d sharp = inverse_with(covariance, sharp_variance_m2);
+    const Eigen::Matrix3d sharp =
+        inverse_with(covariance, [](double v, double) { return sharp_variance_m2(v, 40.0); });
     const Eigen::Matrix3d wide =
         inverse_with(covariance + Eigen::Matrix3d::Identity() / 39.0, wide_variance_m2);
     EXPECT_LT((matrix(voxel.sharp_1pm2) - sharp).norm(), 1e-6 * sharp.norm()) << run;

@@ -16,7 +16,8 @@ StreetGrid::StreetGrid(const City& city, const RoadProfile& road)
       corner_radius_m(road.pavement_width_m + kCornerBeyondPavement_m) {}
 
 Eigen::Vector2d StreetGrid::middle_m(std::size_t block) const noexcept {
-  const Eigen::Vector2d cell(static_cast<double>(block % columns), static_cast<double>(block / columns));
+  const std::size_t row = block / columns;
+  const Eigen::Vector2d cell(static_cast<double>(block % columns), static_cast<double>(row));
   return south_west_m + ((2.0 * cell.array() + 1.0) * half_cell_m.array()).matrix();
 }
 

@@ -34,7 +34,7 @@ struct Rings {
 void add_edge(std::vector<Eigen::Vector2d>& ring, const Eigen::Vector2d& end_m, double length_m) {
   const int steps = std::max(1, static_cast<int>(std::ceil(length_m / 2.0)));
   const Eigen::Vector2d start_m = ring.back();
-  for (int i = 1; i <= steps; ++i) ring.push_back(start_m + (end_m - start_m) * i / steps);
+  for (int i = 1; i <= steps; ++i) ring.emplace_back(start_m + (end_m - start_m) * i / steps);
 }
 
 /// From the block's middle: for each quarter an arc about the middle of the corner's rounding, and the edge
