@@ -15,6 +15,5 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
 }
 
 /// What has been freed need not be kept for thousands of inputs, nor all callers of an allocation be told.
-extern "C" const char* __asan_default_options() {  // NOLINT(bugprone-reserved-identifier): AddressSanitizer's
-  return "quarantine_size_mb=8:malloc_context_size=8";
-}
+// NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming): AddressSanitizer's
+extern "C" const char* __asan_default_options() { return "quarantine_size_mb=8:malloc_context_size=8"; }

@@ -87,7 +87,7 @@ class DecoderChecker {
   const drivers::SensorModel& model_;
   drivers::AnyDecoder decoder_;
   std::int64_t receive_utc_ns_;
-  std::array<drivers::Point, 1200> storage_{};  ///< a few packets, so that sweeps overflow too
+  std::array<drivers::Point, 200> storage_{};  ///< of a few packets with 32 returns: sweeps overflow too
   drivers::SweepPair sweeps_{storage_};
   std::size_t checked_ = 0;  ///< points of the current sweep
 };

@@ -16,16 +16,11 @@
 
 namespace {
 
-using landfix::test::Bytes;
-using landfix::test::operator+;
-
 /// A file of little endian, times in microseconds, Ethernet; one datagram whole and one in two fragments.
 std::string sound_capture() {
-  using landfix::test::bytes;
-  using landfix::test::ethernet;
-  using landfix::test::ipv4;
+  using namespace landfix::test;
   Bytes file = bytes({0xD4, 0xC3, 0xB2, 0xA1, 2, 0, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4, 0, 1, 0, 0, 0});
-  const Bytes datagram = landfix::test::udp(landfix::test::payload(24));
+  const Bytes datagram = udp(payload(24));
   const Bytes first(datagram.begin(), datagram.begin() + 16);
   const Bytes second(datagram.begin() + 16, datagram.end());
   for (const Bytes& frame :
