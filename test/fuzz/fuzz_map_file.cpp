@@ -25,8 +25,8 @@ std::string sound_map() {
   VoxelMapBuilder builder(1.0, 8);
   for (const double x_m : {0.0, 1.0, 6.0}) {
     for (unsigned corner = 0; corner < 8; ++corner) {
-      const Eigen::Vector3d offset_m(0.2 + 0.4 * (corner & 1U), 0.3 + 0.2 * (corner / 2 & 1U),
-                                     0.4 + 0.3 * (corner / 4));
+      const Eigen::Vector3d offset_m(0.2 + 0.4 * (corner & 1U), 0.3 + 0.2 * (corner >> 1U & 1U),
+                                     0.4 + 0.3 * (corner >> 2U));
       builder.add(Eigen::Vector3d(x_m, 0.0, 0.0) + offset_m);
     }
   }
