@@ -68,7 +68,7 @@ void PcapSource::rewind() {
                     path_.string(), error.data()));
   }
   link_ = link_type(path_, pcap_datalink(capture_.get()));
-  extractor_ = std::make_unique<UdpExtractor>();
+  extractor_ = std::make_unique_for_overwrite<UdpExtractor>();  // a MiB that need not be zero
   read_error_ = "";
   std::error_code no_size;
   const auto size = std::filesystem::file_size(path_, no_size);
