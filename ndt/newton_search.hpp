@@ -15,7 +15,7 @@ struct Phase {
   double narrowness = 1.0;  ///< factor of d2: below 1, voxels pull from farther away
   double tolerance_m = 0.0;
   double tolerance_rad = 0.0;  ///< a step shorter than both ends it
-  int max_iterations = 1000;
+  int max_iterations = 1000;   ///< of this climb; the search has a limit of its own
 };
 
 struct StepLimits {
