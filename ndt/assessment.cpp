@@ -21,9 +21,8 @@ namespace {
 }  // namespace
 
 Assessment assess(const VoxelMap& map, PairGroups& groups, const Pose& optimum, Covariance covariance,
-                  const ScoreConstants& constants, const Guess& guess) noexcept {
-  // Wide distributions hide what holds a direction and what does not.
-  const ScanInformation sharp = gather_information(map, groups, optimum, Covariance::sharp, constants);
+                  const ScanInformation& sharp, const ScoreConstants& constants,
+                  const Guess& guess) noexcept {
   const ScanInformation information = covariance == Covariance::sharp
                                           ? sharp
                                           : gather_information(map, groups, optimum, covariance, constants);

@@ -22,9 +22,10 @@ struct Assessment {
   WeakDirections weak{};
 };
 
-/// `optimum`: of the score with `covariance`, where at least one pair is.
+/// `optimum`: of the score with `covariance`, where at least one pair is. `sharp`: of the sharp covariances
+/// there, since wide ones hide what holds a direction and what does not.
 [[nodiscard]] Assessment assess(const VoxelMap& map, PairGroups& groups, const Pose& optimum,
-                                Covariance covariance, const ScoreConstants& constants,
-                                const Guess& guess) noexcept;
+                                Covariance covariance, const ScanInformation& sharp,
+                                const ScoreConstants& constants, const Guess& guess) noexcept;
 
 }  // namespace landfix::ndt

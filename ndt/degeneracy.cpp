@@ -56,13 +56,29 @@ struct Eigenvectors {
   return metric;
 }
 
-/// By how much of itself the score falls at `step` to either side.
-[[nodiscard]] double fall_of_score(const VoxelMap& map, PairGroups& groups, const Pose& pose, double score,
-                                   const Twist& step, const ScoreConstants& constants) noexcept {
+/// By how much of itself the score of every `stride`-th group falls at `step` to either side.
+[[nodiscard]] double fall_of_score(const VoxelMap& map, PairGroups& groups, const Pose& pose,
+                                   const Twist& step, std::size_t stride,
+                                   const ScoreConstants& constants) noexcept {
   const auto score_at = [&](const Twist& offset) {
-    return evaluate(map, groups, moved(pose, offset), Covariance::sharp, constants).score;
+    double score = 0.0;
+    for (std::size_t i = 0; i < groups.groups().size(); i += stride) {
+      score += evaluate_group(map, groups, i, moved(pose, offset), Covariance::sharp, constants).score;
+    }
+    return score;
   };
-  return 1.0 - 0.5 * (score_at(step) + score_at(-step)) / score;
+  const double score = score_at(Twist::Zero());
+  return score > 0.0 ? 1.0 - 0.5 * (score_at(step) + score_at(-step)) / score : 0.0;
+}
+
+/// Whether points stay in step with the voxels at `step` to either side. Few groups say so where it is not
+/// close; to move all of them, and look up their pairs, would take as long as all the rest of a match.
+[[nodiscard]] bool is_featureless(const VoxelMap& map, PairGroups& groups, const Pose& pose,
+                                  const Twist& step, const ScoreConstants& constants) noexcept {
+  constexpr std::size_t kFewGroups = 5;
+  const std::size_t stride = groups.groups().size() / kFewGroups;
+  if (stride > 1 && fall_of_score(map, groups, pose, step, stride, constants) > 3.0 * kFall) return false;
+  return fall_of_score(map, groups, pose, step, 1, constants) < kFall;
 }
 
 }  // namespace
@@ -106,8 +122,7 @@ Directions find_directions(const VoxelMap& map, PairGroups& groups, const Pose& 
   for (int i = 0; i < 6 && eigen.values[i] < kFeatureless; ++i) {
     const Twist half_voxel = 0.5 * map.resolution_m() * directions.length_per_m * directions.basis.col(i);
     directions.is_weak[static_cast<std::size_t>(i)] =
-        eigen.values[i] < kNothing ||
-        fall_of_score(map, groups, pose, information.objective.score, half_voxel, constants) < kFall;
+        eigen.values[i] < kNothing || is_featureless(map, groups, pose, half_voxel, constants);
   }
   return directions;
 }

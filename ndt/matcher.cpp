@@ -8,6 +8,7 @@
 #include "ndt/assessment.hpp"
 #include "ndt/newton_search.hpp"
 #include "ndt/objective.hpp"
+#include "ndt/scan_information.hpp"
 
 namespace landfix::ndt {
 namespace {
@@ -37,7 +38,7 @@ struct Phases {
         sharp(wide),
         leading_wide(wide),
         leading_sharp(wide) {
-    constexpr double kLoose = 100.0;
+    constexpr double kLoose = 20.0;
     sharp.covariance = leading_sharp.covariance = Covariance::sharp;
     for (Phase* const phase : {&leading_wide, &leading_sharp}) {
       phase->tolerance_m *= kLoose;
@@ -61,6 +62,20 @@ struct Phases {
 /// Every how many-th point makes about so many.
 [[nodiscard]] std::size_t stride_for(std::size_t points, std::size_t wanted) noexcept {
   return std::max<std::size_t>(1, points / wanted);
+}
+
+/// What a search ended with, and how all of the points see it.
+struct Ending {
+  Estimate estimate;
+  ScanInformation sharp;
+  PointScores wide_scores;
+};
+
+[[nodiscard]] Ending look_around(const VoxelMap& map, PairGroups& groups, const Estimate& estimate,
+                                 const ScoreConstants& constants) noexcept {
+  return {.estimate = estimate,
+          .sharp = gather_information(map, groups, estimate.pose, Covariance::sharp, constants),
+          .wide_scores = score_points(map, groups, estimate.pose, Covariance::wide, constants)};
 }
 
 }  // namespace
@@ -88,39 +103,36 @@ MatchResult Matcher::match(const VoxelMap& map, std::span<const Eigen::Vector3f>
   }
 
   groups_.assign(points_m, 1);
-  Estimate best;
-  PointScores points;
-  const auto score_wide = [&] {
-    result.score = evaluate(map, groups_, best.pose, Covariance::wide, constants).score;
-    points = score_points(map, groups_, best.pose, constants);
+  const auto climb = [&](const Pose& start, const Phase& phase) {
+    return look_around(map, groups_, search.climb(start, groups_, phase), constants);
   };
+  Ending end;
   if (settings_.sharpen) {
-    best = search.climb(sharp, groups_, phases.sharp);
-    score_wide();
-    result.sharpened = is_trustworthy(best, wide, points.all.points, map.resolution_m());
+    end = climb(sharp, phases.sharp);
+    result.sharpened = is_trustworthy(end.estimate, wide, end.wide_scores.all.points, map.resolution_m());
   }
-  if (!result.sharpened) {
-    best = search.climb(wide, groups_, phases.wide);
-    score_wide();
-  }
-  result.converged = best.converged;
-  result.pose = best.pose;
-  if (best.objective.pairs != 0) {
+  if (!result.sharpened) end = climb(wide, phases.wide);
+
+  result.converged = end.estimate.converged;
+  result.pose = end.estimate.pose;
+  if (end.estimate.objective.pairs != 0) {
     const Assessment assessment =
-        assess(map, groups_, best.pose, result.sharpened ? Covariance::sharp : Covariance::wide, constants,
-               {.pose = guess, .sigma_m = guess_sigma_m.value_or(map.resolution_m())});
+        assess(map, groups_, end.estimate.pose, result.sharpened ? Covariance::sharp : Covariance::wide,
+               end.sharp, constants, {.pose = guess, .sigma_m = guess_sigma_m.value_or(map.resolution_m())});
     result.pose = assessment.pose;
     result.covariance = assessment.covariance;
     result.weak = assessment.weak;
   }
   result.pairs_dropped += groups_.dropped_pairs();
   result.iterations = search.iterations();
-  result.points_matched = points.all.points;
+  const PointScores& scores = end.wide_scores;
+  result.score = scores.sum;
   if (!points_m.empty())
     result.transformation_probability = result.score / static_cast<double>(points_m.size());
-  result.nearest_voxel_likelihood = points.all.mean();
-  result.no_ground_points_matched = points.no_ground.points;
-  result.no_ground_nearest_voxel_likelihood = points.no_ground.mean();
+  result.points_matched = scores.all.points;
+  result.nearest_voxel_likelihood = scores.all.mean();
+  result.no_ground_points_matched = scores.no_ground.points;
+  result.no_ground_nearest_voxel_likelihood = scores.no_ground.mean();
   return result;
 }
 

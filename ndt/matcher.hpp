@@ -21,8 +21,8 @@ struct MatcherSettings {
   double outlier_ratio = 0.55;  ///< 0: the plain exponential
   double step_limit_m = 0.3;
   double step_limit_rad = 0.03;
-  double converged_m = 1e-4;  ///< a step shorter than both ends the search
-  double converged_rad = 1e-5;
+  double converged_m = 5e-4;  ///< a step shorter than both is the last: the next would be a tenth of it
+  double converged_rad = 5e-5;
   bool sharpen = true;           ///< finish on the sharp covariances where that can be trusted
   std::size_t few_points = 300;  ///< that lead the search, about; 0: none do
 };
@@ -46,9 +46,9 @@ struct MatchResult {
   bool sharpened = false;
 };
 
-/// Each step is tried before it is taken and must not lower the score: the search cannot diverge. No guess,
-/// scan or map makes it fail; what it found says `converged` or not. Where nothing overlaps, the pose is the
-/// guess. Allocates in its constructor only.
+/// Each step that is not negligible is tried before it is taken and must not lower the score: the search
+/// cannot diverge. No guess, scan or map makes it fail; what it found says `converged` or not. Where nothing
+/// overlaps, the pose is the guess. Allocates in its constructor only.
 class Matcher {
  public:
   /// `max_points`: of a scan; what is beyond is left out.

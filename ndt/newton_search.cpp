@@ -69,11 +69,13 @@ Estimate NewtonSearch::climb(const Pose& start, PairGroups& groups, const Phase&
   Boldness boldness;
   while (iterations_ < last_iteration) {
     const Twist step = limited(newton_step(best.objective, boldness), limits_);
-    best.converged =
-        (step.head<3>().norm() < phase.tolerance_m && step.tail<3>().norm() < phase.tolerance_rad) ||
-        boldness.damping > Boldness::kMaxDamping;
+    const Pose after = moved(best.pose, step);
+    const bool is_negligible =
+        step.head<3>().norm() < phase.tolerance_m && step.tail<3>().norm() < phase.tolerance_rad;
+    best.converged = is_negligible || boldness.damping > Boldness::kMaxDamping;
+    if (is_negligible) best.pose = after;
     if (best.converged) break;
-    const Estimate next = evaluate_at(moved(best.pose, step), groups, phase);
+    const Estimate next = evaluate_at(after, groups, phase);
     if (next.objective.score >= best.objective.score) {
       best = next;
       boldness.grow();

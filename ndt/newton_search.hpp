@@ -14,7 +14,7 @@ struct Phase {
   Covariance covariance{};
   double narrowness = 1.0;  ///< factor of d2: below 1, voxels pull from farther away
   double tolerance_m = 0.0;
-  double tolerance_rad = 0.0;  ///< a step shorter than both ends it
+  double tolerance_rad = 0.0;  ///< a step shorter than both is the last, and taken untried
   int max_iterations = 1000;   ///< of this climb; the search has a limit of its own
 };
 
@@ -26,7 +26,7 @@ struct StepLimits {
 /// Where a climb ended.
 struct Estimate {
   Pose pose = Pose::Identity();
-  Objective objective;
+  Objective objective;     ///< at the pose, or a last step before it
   bool converged = false;  ///< not for want of iterations, nor for want of pairs
 };
 
@@ -38,7 +38,8 @@ class NewtonSearch {
                int max_iterations) noexcept
       : map_(map), constants_(constants), limits_(limits), max_iterations_(max_iterations) {}
 
-  /// Climbs until a step is negligible. Each step is tried before it is taken and must not lower the score.
+  /// Climbs until a step is negligible. Each step but such a one is tried before it is taken and must not
+  /// lower the score.
   [[nodiscard]] Estimate climb(const Pose& start, PairGroups& groups, const Phase& phase) noexcept;
 
   [[nodiscard]] int iterations() const noexcept { return iterations_; }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 
 #include "ndt/pair_kernel.hpp"
 
@@ -48,8 +46,9 @@ namespace {
   return place;
 }
 
-void add_group(const VoxelMap& map, const PairGroups& groups, std::size_t index, const Pose& pose,
-               const ScoreConstants& constants, Objective& sum) noexcept {
+void add_group(const VoxelMap& map, PairGroups& groups, std::size_t index, const Pose& pose,
+               Covariance covariance, const ScoreConstants& constants, Objective& sum) noexcept {
+  groups.update(map, pose, covariance, index);
   const PairGroup& group = groups.groups()[index];
   if (group.pair_count == 0) return;
   const GroupSums part = sum_pairs(groups.columns(index), group.pair_count,
@@ -70,46 +69,48 @@ void add_group(const VoxelMap& map, const PairGroups& groups, std::size_t index,
 
 Objective evaluate(const VoxelMap& map, PairGroups& groups, const Pose& pose, Covariance covariance,
                    const ScoreConstants& constants) noexcept {
-  groups.update(map, pose, covariance);
   Objective sum;
-  for (std::size_t i = 0; i < groups.groups().size(); ++i) add_group(map, groups, i, pose, constants, sum);
+  for (std::size_t i = 0; i < groups.groups().size(); ++i) {
+    add_group(map, groups, i, pose, covariance, constants, sum);
+  }
   return sum;
 }
 
-Objective evaluate_group(const VoxelMap& map, const PairGroups& groups, std::size_t group, const Pose& pose,
-                         const ScoreConstants& constants) noexcept {
+Objective evaluate_group(const VoxelMap& map, PairGroups& groups, std::size_t group, const Pose& pose,
+                         Covariance covariance, const ScoreConstants& constants) noexcept {
   Objective part;
-  add_group(map, groups, group, pose, constants, part);
+  add_group(map, groups, group, pose, covariance, constants, part);
   return part;
 }
 
-PointScores score_points(const VoxelMap& map, const PairGroups& groups, const Pose& pose,
+PointScores score_points(const VoxelMap& map, PairGroups& groups, const Pose& pose, Covariance covariance,
                          const ScoreConstants& constants) noexcept {
-  PointScores sum;
-  const auto d1 = static_cast<float>(constants.d1);
-  const auto d2 = static_cast<float>(constants.d2);
-  std::array<float, kGroupPairs> distances;
+  PointScores total;
+  std::array<float, kGroupPairs> scores;
   for (std::size_t i = 0; i < groups.groups().size(); ++i) {
+    groups.update(map, pose, covariance, i);
     const PairGroup& group = groups.groups()[i];
     const PairColumns& columns = groups.columns(i);
-    measure_pairs(columns, group.pair_count, place_of(group, map.resolution_m(), groups.reach(), pose),
-                  distances);
-    std::array<float, kGroupPoints> least;
-    least.fill(std::numeric_limits<float>::infinity());
+    score_pairs(columns, group.pair_count, place_of(group, map.resolution_m(), groups.reach(), pose),
+                constants, scores);
+    float sum = 0.0F;
+    std::array<float, kGroupPoints> best{};  // what is no pair scores 0, and nothing else does
     for (std::size_t n = 0; n < group.pair_count; ++n) {
-      float& best = least[columns.point[n]];
-      best = std::min(best, distances[n]);
+      float& of_point = best[columns.point[n]];
+      of_point = std::max(of_point, scores[n]);
+      sum += scores[n];
     }
+    total.sum += static_cast<double>(sum);
     const auto points_m = groups.points_m(i);
     const auto above_ground_m = static_cast<float>(kAboveGround_m - group.centre_m.z());
     for (std::size_t p = 0; p < group.point_count; ++p) {
-      if (std::isinf(least[p])) continue;
-      const auto score = static_cast<double>(d1 * std::exp(-0.5F * d2 * least[p]));
-      sum.all.add(score);
-      if (points_m[p].z() > above_ground_m) sum.no_ground.add(score);
+      if (best[p] == 0.0F) continue;
+      const auto score = static_cast<double>(best[p]);
+      total.all.add(score);
+      if (points_m[p].z() > above_ground_m) total.no_ground.add(score);
     }
   }
-  return sum;
+  return total;
 }
 
 }  // namespace landfix::ndt

@@ -26,13 +26,14 @@ struct Objective {
   std::size_t pairs = 0;
 };
 
-/// Of the points in `groups`, whose pairs it brings up to date.
+/// Of the points in `groups`, whose pairs it brings up to date, as the functions below do.
 [[nodiscard]] Objective evaluate(const VoxelMap& map, PairGroups& groups, const Pose& pose,
                                  Covariance covariance, const ScoreConstants& constants) noexcept;
 
-/// Of one of the groups, whose pairs are up to date at the pose.
-[[nodiscard]] Objective evaluate_group(const VoxelMap& map, const PairGroups& groups, std::size_t group,
-                                       const Pose& pose, const ScoreConstants& constants) noexcept;
+/// Of one of the groups.
+[[nodiscard]] Objective evaluate_group(const VoxelMap& map, PairGroups& groups, std::size_t group,
+                                       const Pose& pose, Covariance covariance,
+                                       const ScoreConstants& constants) noexcept;
 
 /// What single points score, each with its best voxel; of those that have one within reach.
 struct BestScores {
@@ -47,12 +48,12 @@ struct BestScores {
 };
 
 struct PointScores {
+  double sum = 0.0;  ///< over all pairs
   BestScores all;
   BestScores no_ground;  ///< of points more than kAboveGround_m above the vehicle's origin
 };
 
-/// Of pairs that are up to date at the pose (see `evaluate`).
-[[nodiscard]] PointScores score_points(const VoxelMap& map, const PairGroups& groups, const Pose& pose,
-                                       const ScoreConstants& constants) noexcept;
+[[nodiscard]] PointScores score_points(const VoxelMap& map, PairGroups& groups, const Pose& pose,
+                                       Covariance covariance, const ScoreConstants& constants) noexcept;
 
 }  // namespace landfix::ndt

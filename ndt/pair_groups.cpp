@@ -46,16 +46,14 @@ void PairGroups::assign(std::span<const Eigen::Vector3f> points_m, std::size_t s
   }
 }
 
-void PairGroups::update(const VoxelMap& map, const Pose& pose, Covariance covariance) noexcept {
-  const bool changed = covariance != covariance_;
-  covariance_ = covariance;
-  for (std::size_t i = 0; i < group_count_; ++i) {
-    if (!groups_[i].is_looked_up || moved_m(groups_[i], pose) > reach_.margin * map.resolution_m()) {
-      look_up(map, pose, i);
-    } else if (changed) {
-      fill_covariances(map, i);
-    }
-  }
+void PairGroups::update(const VoxelMap& map, const Pose& pose, Covariance covariance,
+                        std::size_t group) noexcept {
+  PairGroup& of = groups_[group];
+  const bool is_near = of.is_looked_up && moved_m(of, pose) <= reach_.margin * map.resolution_m();
+  if (is_near && of.covariance == covariance) return;
+  of.covariance = covariance;
+  if (!is_near) look_up(map, pose, group);
+  fill_covariances(map, group);
 }
 
 void PairGroups::look_up(const VoxelMap& map, const Pose& pose, std::size_t index) noexcept {
@@ -80,13 +78,14 @@ void PairGroups::look_up(const VoxelMap& map, const Pose& pose, std::size_t inde
   const LookUp found = look_up_pairs(map, points, columns_[index]);
   group.pair_count = found.pairs;
   dropped_pairs_ += found.dropped;
-  fill_covariances(map, index);
 }
 
 void PairGroups::fill_covariances(const VoxelMap& map, std::size_t index) noexcept {
-  const auto inverse_covariance = covariance_ == Covariance::wide ? &Voxel::wide_1pm2 : &Voxel::sharp_1pm2;
+  const PairGroup& group = groups_[index];
+  const auto inverse_covariance =
+      group.covariance == Covariance::wide ? &Voxel::wide_1pm2 : &Voxel::sharp_1pm2;
   PairColumns& columns = columns_[index];
-  for (std::size_t n = 0; n < groups_[index].pair_count; ++n) {
+  for (std::size_t n = 0; n < group.pair_count; ++n) {
     const Symmetric3f& shape = map.voxels()[columns.voxel[n]].*inverse_covariance;
     for (std::size_t i = 0; i < shape.size(); ++i) columns.inverse_covariance_1pm2[i][n] = shape[i];
   }

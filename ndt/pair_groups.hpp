@@ -54,6 +54,7 @@ struct PairGroup {
   Pose looked_up_at = Pose::Identity();
   std::size_t pair_count = 0;
   bool is_looked_up = false;
+  Covariance covariance = Covariance::wide;  ///< that its candidates have
 };
 
 /// Allocates in its constructor only.
@@ -66,9 +67,8 @@ class PairGroups {
   /// for; no pairs yet. Points that are not finite, or farther than any LiDAR sees, are left out.
   void assign(std::span<const Eigen::Vector3f> points_m, std::size_t stride) noexcept;
 
-  /// Makes the candidates hold at the pose: looks up what has moved too far, or all if the covariance is
-  /// another.
-  void update(const VoxelMap& map, const Pose& pose, Covariance covariance) noexcept;
+  /// Makes a group's candidates hold at the pose: looks them up if it has moved too far.
+  void update(const VoxelMap& map, const Pose& pose, Covariance covariance, std::size_t group) noexcept;
 
   [[nodiscard]] std::span<const PairGroup> groups() const noexcept {
     return std::span<const PairGroup>(groups_).first(group_count_);
@@ -88,7 +88,6 @@ class PairGroups {
 
   Reach reach_;
   std::size_t points_per_group_ = 0;
-  Covariance covariance_ = Covariance::wide;
   std::size_t group_count_ = 0;
   std::size_t dropped_pairs_ = 0;
   std::vector<Eigen::Vector3f> points_m_;  ///< relative to their group's centre

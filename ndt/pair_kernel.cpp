@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <limits>
 
 #include "ndt/simd_targets.hpp"
 
@@ -135,13 +134,19 @@ HWY_INLINE Candidates candidates(const PairColumns& columns, std::size_t i, std:
               hn::And(hn::Le(dot(difference, difference), set(place.radius_m2)), hn::FirstN(d, count - i))};
 }
 
-HWY_ATTR void measure_pairs_simd(const PairColumns& columns, std::size_t count, const GroupPlace& place,
-                                 float* distances) {
+/// d1 exp(-d2/2 distance) of those that are pairs, 0 of the others.
+HWY_INLINE V score_of(const Candidates& all, V d1, V d2) {
+  const V exponent = hn::Mul(hn::Mul(hn::Set(Floats(), -0.5F), d2), all.distance);
+  return hn::IfThenElseZero(all.is_pair, hn::Mul(d1, exp_negative(exponent)));
+}
+
+HWY_ATTR void score_pairs_simd(const PairColumns& columns, std::size_t count, const GroupPlace& place,
+                               const ScoreConstants& constants, float* scores) {
   const Floats d;
+  const V d1 = hn::Set(d, static_cast<float>(constants.d1));
+  const V d2 = hn::Set(d, static_cast<float>(constants.d2));
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const Candidates all = candidates(columns, i, count, place);
-    hn::StoreU(hn::IfThenElse(all.is_pair, all.distance, hn::Set(d, std::numeric_limits<float>::infinity())),
-               d, distances + i);
+    hn::StoreU(score_of(candidates(columns, i, count, place), d1, d2), d, scores + i);
   }
 }
 
@@ -174,8 +179,7 @@ HWY_INLINE void add_first_order(const PairColumns& columns, std::size_t first, s
   for (int k = 0; k < 8; ++k) sum[k] = sums[k];
   for (std::size_t i = 0; i < std::min(kStretch, count - first); i += hn::Lanes(d)) {
     const Candidates all = candidates(columns, first + i, count, place);
-    const V exponent = hn::Mul(hn::Mul(hn::Set(d, -0.5F), d2), all.distance);
-    const V score = hn::IfThenElseZero(all.is_pair, hn::Mul(d1, exp_negative(exponent)));
+    const V score = score_of(all, d1, d2);
     const V weight = hn::Mul(d2, score);
     const Vector turn = cross(all.arm, all.pull);
     const V u[6] = {all.pull.x, all.pull.y, all.pull.z, turn.x, turn.y, turn.z};
@@ -249,7 +253,7 @@ HWY_AFTER_NAMESPACE();
 namespace landfix::ndt {
 
 HWY_EXPORT(sum_pairs_simd);
-HWY_EXPORT(measure_pairs_simd);
+HWY_EXPORT(score_pairs_simd);
 
 GroupSums sum_pairs(const PairColumns& columns, std::size_t count, const GroupPlace& place,
                     const ScoreConstants& constants) noexcept {
@@ -258,9 +262,9 @@ GroupSums sum_pairs(const PairColumns& columns, std::size_t count, const GroupPl
   return sums;
 }
 
-void measure_pairs(const PairColumns& columns, std::size_t count, const GroupPlace& place,
-                   std::span<float, kGroupPairs> distances) noexcept {
-  HWY_DYNAMIC_DISPATCH(measure_pairs_simd)(columns, count, place, distances.data());
+void score_pairs(const PairColumns& columns, std::size_t count, const GroupPlace& place,
+                 const ScoreConstants& constants, std::span<float, kGroupPairs> scores) noexcept {
+  HWY_DYNAMIC_DISPATCH(score_pairs_simd)(columns, count, place, constants, scores.data());
 }
 
 }  // namespace landfix::ndt

@@ -35,8 +35,8 @@ static_assert(sizeof(GroupSums) == kGroupSumCount * sizeof(float));
 [[nodiscard]] GroupSums sum_pairs(const PairColumns& columns, std::size_t count, const GroupPlace& place,
                                   const ScoreConstants& constants) noexcept;
 
-/// The squared Mahalanobis distance of each candidate at the place; infinite where it is no pair.
-void measure_pairs(const PairColumns& columns, std::size_t count, const GroupPlace& place,
-                   std::span<float, kGroupPairs> distances) noexcept;
+/// Each candidate's s at the place, above 0; 0 where it is no pair.
+void score_pairs(const PairColumns& columns, std::size_t count, const GroupPlace& place,
+                 const ScoreConstants& constants, std::span<float, kGroupPairs> scores) noexcept;
 
 }  // namespace landfix::ndt

@@ -29,11 +29,10 @@ namespace {
 
 ScanInformation gather_information(const VoxelMap& map, PairGroups& groups, const Pose& pose,
                                    Covariance covariance, const ScoreConstants& constants) noexcept {
-  groups.update(map, pose, covariance);
   const double pull_1pm2 = constants.d2 * 12.0 / (map.resolution_m() * map.resolution_m());
   ScanInformation sum;
   for (std::size_t i = 0; i < groups.groups().size(); ++i) {
-    const Objective part = evaluate_group(map, groups, i, pose, constants);
+    const Objective part = evaluate_group(map, groups, i, pose, covariance, constants);
     if (part.pairs == 0) continue;
     const Eigen::Matrix<double, 6, 3> displacement =
         part.definite.leftCols<3>() - part.curvature.leftCols<3>();

@@ -25,7 +25,7 @@ struct ScanInformation {
   Matrix6 lattice = Matrix6::Zero();
 };
 
-/// Brings the pairs of `groups` up to date, as `evaluate` does.
+/// Of the points in `groups`, whose pairs it brings up to date.
 [[nodiscard]] ScanInformation gather_information(const VoxelMap& map, PairGroups& groups, const Pose& pose,
                                                  Covariance covariance,
                                                  const ScoreConstants& constants) noexcept;

@@ -118,9 +118,10 @@ TEST(Assessment, LeavesAPoseThatIsHeldAsItIs) {
   PairGroups groups(scan.size());
   groups.assign(scan, 1);
   const Pose optimum = make_pose({0.01, 0.02, -0.01}, {.yaw_rad = 0.001});
-  const Assessment assessment =
-      assess(map, groups, optimum, Covariance::sharp, magnusson_constants(0.55, 1.0),
-             {.pose = make_pose({0.5, 0.5, 0.0}, {}), .sigma_m = 1.0});
+  const ScoreConstants constants = magnusson_constants(0.55, 1.0);
+  const ScanInformation information = gather_information(map, groups, optimum, Covariance::sharp, constants);
+  const Assessment assessment = assess(map, groups, optimum, Covariance::sharp, information, constants,
+                                       {.pose = make_pose({0.5, 0.5, 0.0}, {}), .sigma_m = 1.0});
   EXPECT_EQ(assessment.weak.count, 0U);
   EXPECT_EQ((assessment.pose.matrix() - optimum.matrix()).norm(), 0.0);
 }
