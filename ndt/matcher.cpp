@@ -59,11 +59,6 @@ struct Phases {
   Phase leading_sharp;
 };
 
-/// Every how many-th point makes about so many.
-[[nodiscard]] std::size_t stride_for(std::size_t points, std::size_t wanted) noexcept {
-  return std::max<std::size_t>(1, points / wanted);
-}
-
 /// What a search ended with, and how all of the points see it.
 struct Ending {
   Estimate estimate;
@@ -93,8 +88,8 @@ MatchResult Matcher::match(const VoxelMap& map, std::span<const Eigen::Vector3f>
   Pose wide = guess;
   Pose sharp = guess;
   if (settings_.few_points != 0) {
-    coarse_groups_.assign(points_m, stride_for(points_m.size(), settings_.few_points));
-    leading_groups_.assign(points_m, stride_for(points_m.size(), 2 * settings_.few_points));
+    coarse_groups_.assign(points_m, settings_.few_points);
+    leading_groups_.assign(points_m, 2 * settings_.few_points);
     wide = search.climb(guess, coarse_groups_, phases.coarse).pose;
     wide = search.climb(wide, leading_groups_, phases.leading_wide).pose;
     const Estimate leading = search.climb(wide, leading_groups_, phases.leading_sharp);
@@ -102,7 +97,7 @@ MatchResult Matcher::match(const VoxelMap& map, std::span<const Eigen::Vector3f>
     result.pairs_dropped = coarse_groups_.dropped_pairs() + leading_groups_.dropped_pairs();
   }
 
-  groups_.assign(points_m, 1);
+  groups_.assign(points_m);
   const auto climb = [&](const Pose& start, const Phase& phase) {
     return look_around(map, groups_, search.climb(start, groups_, phase), constants);
   };

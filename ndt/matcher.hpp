@@ -24,7 +24,7 @@ struct MatcherSettings {
   double converged_m = 5e-4;  ///< a step shorter than both is the last: the next would be a tenth of it
   double converged_rad = 5e-5;
   bool sharpen = true;           ///< finish on the sharp covariances where that can be trusted
-  std::size_t few_points = 300;  ///< that lead the search, about; 0: none do
+  std::size_t few_points = 200;  ///< that lead the search, about; 0: none do
 };
 
 struct MatchResult {
@@ -65,7 +65,7 @@ class Matcher {
 
  private:
   /// Of few points, from afar: a step moves them far, and voxels far away pull.
-  static constexpr Reach kCoarseReach{.pair = 1.5, .margin = 0.1};
+  static constexpr Reach kCoarseReach{.pair = 1.85, .margin = 0.1};
 
   MatcherSettings settings_;
   PairGroups coarse_groups_;

@@ -21,22 +21,43 @@ constexpr float kFarthest_m = 1e4F;
          std::numbers::sqrt2 / 2.0 * (pose.linear() - before.linear()).norm() * group.radius_m;
 }
 
+/// Some of a sequence: one from each of as many runs of equal length. Not always from the same place in its
+/// run, as what is sorted has patterns that a constant stride would fall into step with.
+class Thinning {
+ public:
+  Thinning(std::size_t size, std::size_t most) noexcept
+      : count_(std::min(size, most)),
+        run_(count_ != 0 ? static_cast<double>(size) / static_cast<double>(count_) : 1.0) {}
+
+  [[nodiscard]] std::size_t count() const noexcept { return count_; }
+  [[nodiscard]] std::size_t operator[](std::size_t n) const noexcept {
+    const auto place = static_cast<std::uint32_t>(n * 0x9E3779B9U);  // multiples of the golden ratio (Weyl)
+    return static_cast<std::size_t>((static_cast<double>(n) + 0x1p-32 * static_cast<double>(place)) * run_);
+  }
+
+ private:
+  std::size_t count_;
+  double run_;
+};
+
 }  // namespace
 
-void PairGroups::assign(std::span<const Eigen::Vector3f> points_m, std::size_t stride) noexcept {
+void PairGroups::assign(std::span<const Eigen::Vector3f> points_m, std::size_t most) noexcept {
+  const Thinning thinning(points_m.size(), most);
   std::size_t size = 0;
   group_count_ = 0;
   dropped_pairs_ = 0;
-  for (std::size_t next = 0; next < points_m.size() && size < points_m_.size();) {
+  for (std::size_t next = 0; next < thinning.count() && size < points_m_.size();) {
     PairGroup& group = groups_[group_count_++];
     group = PairGroup{};
     group.first_point = size;
-    for (; next < points_m.size() && size < points_m_.size() && group.point_count < points_per_group_;
-         next += stride) {
-      if (!(points_m[next].cwiseAbs().maxCoeff() < kFarthest_m)) continue;  // NaN is not
-      points_m_[size++] = points_m[next];
+    for (; next < thinning.count() && size < points_m_.size() && group.point_count < points_per_group_;
+         ++next) {
+      const Eigen::Vector3f& point_m = points_m[thinning[next]];
+      if (!(point_m.cwiseAbs().maxCoeff() < kFarthest_m)) continue;  // NaN is not
+      points_m_[size++] = point_m;
       ++group.point_count;
-      group.centre_m += points_m[next].cast<double>();
+      group.centre_m += point_m.cast<double>();
     }
     group.centre_m /= static_cast<double>(std::max<std::size_t>(group.point_count, 1));
     for (Eigen::Vector3f& point_m : std::span(points_m_).subspan(group.first_point, group.point_count)) {

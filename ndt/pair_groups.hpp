@@ -63,9 +63,10 @@ class PairGroups {
   /// A group is of as many points as find room for their candidates where every cell of the map has a voxel.
   explicit PairGroups(std::size_t max_points, const Reach& reach = {});
 
-  /// Takes every `stride`-th point (frame `vehicle`, neighbours near each other), as many as there is room
-  /// for; no pairs yet. Points that are not finite, or farther than any LiDAR sees, are left out.
-  void assign(std::span<const Eigen::Vector3f> points_m, std::size_t stride) noexcept;
+  /// Takes the points (frame `vehicle`, neighbours near each other), or `most` of them, spread over all, as
+  /// far as there is room; no pairs yet. Points that are not finite, or farther than any LiDAR sees, are left
+  /// out.
+  void assign(std::span<const Eigen::Vector3f> points_m, std::size_t most = SIZE_MAX) noexcept;
 
   /// Makes a group's candidates hold at the pose: looks them up if it has moved too far.
   void update(const VoxelMap& map, const Pose& pose, Covariance covariance, std::size_t group) noexcept;

@@ -20,7 +20,7 @@ using test::BenchmarkWorld;
 constexpr double kLeaf_m = 2.0;
 
 void look_up(const BenchmarkWorld& world, std::span<const Eigen::Vector3f> points_m, PairGroups& groups) {
-  groups.assign(points_m, 1);
+  groups.assign(points_m);
   for (std::size_t i = 0; i < groups.groups().size(); ++i) {
     groups.update(world.map, world.truth, Covariance::wide, i);
   }

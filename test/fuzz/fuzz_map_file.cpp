@@ -79,7 +79,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     read_window(bytes);
     const MapImage image = load_map(bytes, "fuzz.ndt");
     const VoxelMap map(image.bytes());
-    groups.assign(scan, 1);
+    groups.assign(scan);
     (void)evaluate(map, groups, Pose::Identity(), Covariance::wide, {});
   } catch (const std::runtime_error&) {  // refused, as it should be
   }

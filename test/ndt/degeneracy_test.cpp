@@ -116,7 +116,7 @@ TEST(Assessment, LeavesAPoseThatIsHeldAsItIs) {
   const VoxelMap map(image.bytes());
   const auto scan = seen_from({world.begin() + 40000, world.end()}, Pose::Identity());
   PairGroups groups(scan.size());
-  groups.assign(scan, 1);
+  groups.assign(scan);
   const Pose optimum = make_pose({0.01, 0.02, -0.01}, {.yaw_rad = 0.001});
   const ScoreConstants constants = magnusson_constants(0.55, 1.0);
   const ScanInformation information = gather_information(map, groups, optimum, Covariance::sharp, constants);

@@ -43,7 +43,7 @@ struct Yard {
 Objective evaluate_scan(const VoxelMap& map, std::span<const Eigen::Vector3f> scan, const Pose& pose,
                         Covariance covariance) {
   PairGroups groups(scan.size());
-  groups.assign(scan, 1);
+  groups.assign(scan);
   const Objective objective = evaluate(map, groups, pose, covariance, kConstants);
   EXPECT_EQ(groups.dropped_pairs(), 0U);
   return objective;
@@ -150,7 +150,7 @@ TEST(PairGroups, WhatIsRememberedEqualsWhatIsLookedUpAnew) {
   const Yard yard(3);
   std::mt19937_64 random(16);
   PairGroups groups(yard.scan.size());
-  groups.assign(yard.scan, 1);
+  groups.assign(yard.scan);
   for (int i = 0; i < 30; ++i) {
     // Within the margin, beyond it for points that are far away, beyond it for all.
     const Pose pose = yard.truth * random_pose(random, i < 20 ? 0.1 : 1.0, i < 10 ? 0.001 : 0.05);
@@ -160,19 +160,36 @@ TEST(PairGroups, WhatIsRememberedEqualsWhatIsLookedUpAnew) {
   }
 }
 
-TEST(PairGroups, TakeAsManyPointsAsTheyHaveRoomForAndThoseOfAStride) {
+TEST(PairGroups, TakeAsManyPointsAsTheyHaveRoomFor) {
   const Yard yard(3);
   const std::span<const Eigen::Vector3f> scan(yard.scan);
   PairGroups small(300);
-  small.assign(scan, 1);
+  small.assign(scan);
   expect_same(evaluate(yard.map, small, yard.truth, Covariance::wide, kConstants),
               evaluate_scan(yard.map, scan.first(300), yard.truth, Covariance::wide), 1e-5);
-  std::vector<Eigen::Vector3f> every_third;
-  for (std::size_t i = 0; i < scan.size(); i += 3) every_third.push_back(scan[i]);
-  PairGroups thinned(scan.size());
-  thinned.assign(scan, 3);
-  expect_same(evaluate(yard.map, thinned, yard.truth, Covariance::wide, kConstants),
-              evaluate_scan(yard.map, every_third, yard.truth, Covariance::wide), 1e-5);
+}
+
+TEST(PairGroups, TakeSomePointsFromAllOverAScanWhateverPatternItHas) {
+  std::vector<Eigen::Vector3f> scan;
+  for (int i = 0; i < 2400; ++i) scan.emplace_back(static_cast<float>(i), 0.0F, 0.0F);
+  PairGroups groups(scan.size());
+  groups.assign(scan, 400);
+  std::vector<int> taken;
+  for (std::size_t i = 0; i < groups.groups().size(); ++i) {
+    for (const Eigen::Vector3f& point_m : groups.points_m(i)) {
+      taken.push_back(
+          static_cast<int>(std::lround(static_cast<double>(point_m.x()) + groups.groups()[i].centre_m.x())));
+    }
+  }
+  ASSERT_EQ(taken.size(), 400U);
+  for (int n = 0; n < 400; ++n) EXPECT_EQ(taken[static_cast<std::size_t>(n)] / 6, n);
+  for (const int period : {2, 3, 4, 6, 8}) {
+    for (int phase = 0; phase < period; ++phase) {
+      const auto count =
+          std::count_if(taken.begin(), taken.end(), [&](int index) { return index % period == phase; });
+      EXPECT_NEAR(static_cast<double>(count), 400.0 / period, 10.0) << period;
+    }
+  }
 }
 
 TEST(PairGroups, HaveRoomForTheCandidatesOfAMapThatIsFullOfVoxels) {
@@ -187,7 +204,7 @@ TEST(PairGroups, HaveRoomForTheCandidatesOfAMapThatIsFullOfVoxels) {
   const std::vector<Eigen::Vector3f> scan(200, {4.0F, 4.0F, 4.0F});
   for (const Reach& reach : {Reach{}, Reach{.pair = 1.5, .margin = 0.4}}) {
     PairGroups groups(scan.size(), reach);
-    groups.assign(scan, 1);
+    groups.assign(scan);
     std::size_t pairs = 0;
     for (std::size_t i = 0; i < groups.groups().size(); ++i) {
       groups.update(map, Pose::Identity(), Covariance::wide, i);
@@ -247,7 +264,7 @@ TEST(Matcher, FindsTheOptimumOfTheReference) {
 
 TEST(Matcher, FindsTheTruthFromNearby) {
   std::mt19937_64 random(11);
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const Yard yard(seed);
     const MatchResult result =
         Matcher({}).match(yard.map, yard.scan, yard.truth * random_pose(random, 0.4, 0.03));
@@ -373,7 +390,7 @@ TEST(Matcher, LeavesOutPointsThatAreNotFinite) {
   yard.scan.emplace_back(kInfinity, 0.0F, 0.0F);
   yard.scan.emplace_back(1e30F, 0.0F, 0.0F);
   const MatchResult result = Matcher({}).match(yard.map, yard.scan, yard.truth);
-  EXPECT_LT((result.pose.matrix() - clean.matrix()).norm(), 1e-9);
+  EXPECT_LT((result.pose.matrix() - clean.matrix()).norm(), 1e-4);
 }
 
 TEST(Matcher, KeepsTheWideAnswerForTooFewPoints) {
