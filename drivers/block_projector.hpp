@@ -26,7 +26,7 @@ struct RotorVector {
 struct FiringSlot {
   double elevation_deg = 0.0;
   double azimuth_offset_deg = 0.0;  ///< clockwise
-  RotorVector origin_m;             ///< where the beam starts
+  RotorVector origin_m{};           ///< where the beam starts
   double turning_time_s = 0.0;  ///< firing time since the block's azimuth was taken: the rotor turns on by it
   double time_s = 0.0;          ///< firing time since the block's earliest firing, >= 0
   std::uint16_t ring = 0;

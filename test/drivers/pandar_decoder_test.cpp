@@ -416,16 +416,5 @@ TEST(PandarPackets, AreCountedBySequenceOrElseByTime) {
   EXPECT_EQ(lost_between("pandar40p", P40(kDual), P40(kDual), 556), 1U);
 }
 
-TEST(CivilTime, KnowsTheCalendar) {
-  EXPECT_EQ(unix_seconds({.year = 2000, .month = 1, .day = 1}), 946'684'800);
-  EXPECT_EQ(unix_seconds({.year = 2024, .month = 12, .day = 31, .hour = 23, .minute = 59, .second = 59}),
-            1'735'689'599);
-  EXPECT_EQ(unix_seconds({.year = 2024, .month = 2, .day = 29}), 1'709'164'800);
-  EXPECT_FALSE(unix_seconds({.year = 2023, .month = 2, .day = 29}).has_value());
-  EXPECT_FALSE(unix_seconds({.year = 2023, .month = 4, .day = 31}).has_value());
-  EXPECT_FALSE(unix_seconds({.year = 2023, .month = 13, .day = 1}).has_value());
-  EXPECT_FALSE(unix_seconds({.year = 1999, .month = 12, .day = 31}).has_value());
-}
-
 }  // namespace
 }  // namespace landfix::drivers

@@ -1,5 +1,6 @@
 #include "drivers/sensor_clock.hpp"
 
+#include <cstdlib>
 #include <limits>
 #include <random>
 
@@ -12,6 +13,31 @@ constexpr std::int64_t kSecondNs = 1'000'000'000;
 constexpr std::int64_t kHourNs = 3600 * kSecondNs;
 constexpr std::int64_t kHourUtcNs = 1'700'002'800 * kSecondNs;
 static_assert(kHourUtcNs % kHourNs == 0);
+
+TEST(NearestAfterHour, IsAtMostHalfAnHourAway) {
+  constexpr std::int64_t kHalfNs = kHourNs / 2;
+  for (const std::int64_t near_ns :
+       {kHourUtcNs, kHourUtcNs + 1, kHourUtcNs + kHalfNs - 1, kHourUtcNs + kHalfNs, kHourUtcNs + kHalfNs + 1,
+        kHourUtcNs + kHourNs - 1}) {
+    for (const std::int64_t after_hour_ns :
+         {std::int64_t{0}, std::int64_t{1}, kHalfNs - 1, kHalfNs, kHalfNs + 1, kHourNs - 1}) {
+      const std::int64_t time_ns = nearest_after_hour(after_hour_ns, near_ns);
+      EXPECT_EQ(time_ns % kHourNs, after_hour_ns) << near_ns - kHourUtcNs;
+      EXPECT_LE(std::abs(time_ns - near_ns), kHalfNs) << near_ns - kHourUtcNs << ' ' << after_hour_ns;
+    }
+  }
+}
+
+TEST(NearestAfterHour, TakesACountOverTheHourAsItIs) {
+  EXPECT_EQ(nearest_after_hour(kHourNs + 60'000'000, kHourUtcNs - 1), kHourUtcNs + 60'000'000);
+  EXPECT_EQ(nearest_after_hour(kHourNs + 60'000'000, kHourUtcNs + 1), kHourUtcNs + 60'000'000);
+}
+
+TEST(NearestAfterHour, IsNotBefore1970) {
+  EXPECT_EQ(nearest_after_hour(kHourNs - 1, 0), kHourNs - 1) << "an hour earlier would be";
+  EXPECT_EQ(nearest_after_hour(0, 0), 0);
+  EXPECT_EQ(nearest_after_hour(kHourNs - 1, kHourNs), kHourNs - 1);
+}
 
 TEST(SensorClock, ExpandsTheHourNearTheTimeOfReceipt) {
   const SensorClock clock;

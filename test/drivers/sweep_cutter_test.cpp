@@ -21,6 +21,13 @@ std::vector<std::size_t> cuts(double cut_deg, const std::vector<int>& azimuths_c
 
 using Cuts = std::vector<std::size_t>;
 
+TEST(Turned, IsForwardThroughZeroToo) {
+  EXPECT_EQ(turned_centideg(100, 130), 30);
+  EXPECT_EQ(turned_centideg(35990, 10), 20);
+  EXPECT_EQ(turned_centideg(10, 35990), 35980) << "a step back is nearly a turn forward";
+  EXPECT_EQ(turned_centideg(35999, 35999), 0);
+}
+
 TEST(SweepCutter, CutsWhereTheAzimuthPassesTheCut) {
   EXPECT_EQ(cuts(0, {35900, 35940, 35980, 20, 60}), Cuts{3});
   EXPECT_EQ(cuts(180, {17900, 17999, 18000, 18040, 35990, 10}), Cuts{2});
