@@ -13,8 +13,7 @@
 #include "tools/simulator/ouster_model.hpp"
 #include "tools/simulator/pandar_model.hpp"
 #include "tools/simulator/robosense_model.hpp"
-#include "tools/simulator/velodyne32_model.hpp"
-#include "tools/simulator/vlp16_model.hpp"
+#include "tools/simulator/velodyne_model.hpp"
 #include "tools/simulator/vls128_model.hpp"
 
 namespace landfix::tools::simulator {
@@ -31,10 +30,10 @@ constexpr std::array kModels{
     Entry{"hdl64s2", [] { return make_hdl64(Hdl64Variant::s2); }},
     Entry{"hdl64s3", [] { return make_hdl64(Hdl64Variant::s3); }},
     Entry{"hdl64s1", [] { return make_hdl64(Hdl64Variant::s1); }},
-    Entry{"hdl32e", [] { return make_velodyne32(Velodyne32Variant::hdl32e); }},
-    Entry{"vlp32c", [] { return make_velodyne32(Velodyne32Variant::vlp32c); }},
-    Entry{"vlp16", [] { return make_vlp16(Vlp16Variant::puck); }},
-    Entry{"vlp16hires", [] { return make_vlp16(Vlp16Variant::hi_res); }},
+    Entry{"hdl32e", [] { return make_velodyne(VelodyneSensor::hdl32e); }},
+    Entry{"vlp32c", [] { return make_velodyne(VelodyneSensor::vlp32c); }},
+    Entry{"vlp16", [] { return make_velodyne(VelodyneSensor::vlp16); }},
+    Entry{"vlp16hires", [] { return make_velodyne(VelodyneSensor::vlp16hires); }},
     Entry{"pandar64", [] { return make_pandar(PandarVariant::pandar64); }},
     Entry{"pandar40p", [] { return make_pandar(PandarVariant::pandar40p); }},
     Entry{"os0-32", [] { return make_ouster("os0-32"); }},

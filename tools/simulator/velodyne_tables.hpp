@@ -1,6 +1,6 @@
-// The beams of Velodyne's sensors with fixed tables, as their manuals list them: the VLP-32C's (63-9325 Rev
-// B, table 9-2), the HDL-32E's and the VLS-128's (63-9483 Rev A, appendix). Each row is a laser, in the order
-// in which the packet holds them.
+// The beams of Velodyne's sensors with fixed tables, as their manuals list them: the VLP-16's (63-9243 Rev D,
+// table 9-1), the VLP-32C's (63-9325 Rev B, table 9-2), the HDL-32E's and the VLS-128's (63-9483 Rev A,
+// appendix). Each row is a laser, in the order in which the packet holds them.
 #pragma once
 
 #include <array>
@@ -9,8 +9,47 @@ namespace landfix::tools::simulator::velodyne {
 
 struct Laser {
   double elevation_deg;
-  double azimuth_offset_deg;  ///< clockwise
+  double azimuth_offset_deg;        ///< clockwise
+  double vertical_offset_mm = 0.0;  ///< of the beam's origin, above the optical centre
 };
+
+inline constexpr std::array<Laser, 16> kVlp16{{
+    {-15.0, 0.0, 11.2},
+    {1.0, 0.0, -0.7},
+    {-13.0, 0.0, 9.7},
+    {3.0, 0.0, -2.2},
+    {-11.0, 0.0, 8.1},
+    {5.0, 0.0, -3.7},
+    {-9.0, 0.0, 6.6},
+    {7.0, 0.0, -5.1},
+    {-7.0, 0.0, 5.1},
+    {9.0, 0.0, -6.6},
+    {-5.0, 0.0, 3.7},
+    {11.0, 0.0, -8.1},
+    {-3.0, 0.0, 2.2},
+    {13.0, 0.0, -9.7},
+    {-1.0, 0.0, 0.7},
+    {15.0, 0.0, -11.2},
+}};
+/// Two thirds of the Puck's elevations.
+inline constexpr std::array<Laser, 16> kVlp16HiRes{{
+    {-10.0, 0.0, 7.4},
+    {2.0 / 3.0, 0.0, -0.9},
+    {-26.0 / 3.0, 0.0, 6.5},
+    {2.0, 0.0, -1.8},
+    {-22.0 / 3.0, 0.0, 5.5},
+    {10.0 / 3.0, 0.0, -2.7},
+    {-6.0, 0.0, 4.6},
+    {14.0 / 3.0, 0.0, -3.7},
+    {-14.0 / 3.0, 0.0, 3.7},
+    {6.0, 0.0, -4.6},
+    {-10.0 / 3.0, 0.0, 2.7},
+    {22.0 / 3.0, 0.0, -5.5},
+    {-2.0, 0.0, 1.8},
+    {26.0 / 3.0, 0.0, -6.5},
+    {-2.0 / 3.0, 0.0, 0.9},
+    {10.0, 0.0, -7.4},
+}};
 
 inline constexpr std::array<Laser, 32> kVlp32c{{
     {-25.0, 1.4},  {-1.0, -4.2},   {-1.667, 1.4}, {-15.639, -1.4}, {-11.31, 1.4}, {0.0, -1.4},
