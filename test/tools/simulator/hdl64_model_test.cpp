@@ -5,32 +5,27 @@
 // or S3 was to be had.
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "drivers/make_decoder.hpp"
+#include "support/lidar_model_probe.hpp"
 #include "tools/simulator/hdl64_unit.hpp"
-#include "tools/simulator/lidar_model.hpp"
 
 namespace landfix::tools::simulator {
 namespace {
 
-constexpr std::int64_t kFullHour_utc_ns = 1'777'881'600'000'000'000;  // 2026-05-04 08:00
+using test::byte_at;
+using test::kFullHour_utc_ns;
+using test::little_at;
+using test::shots_at;
+
 constexpr std::size_t kSetPackets = 4160;
 
-unsigned byte_at(const auto& payload, std::size_t at) { return std::to_integer<unsigned>(payload[at]); }
-
-std::vector<Shot> shots_at(const LidarModel& model, std::int64_t utc_ns) {
-  std::vector<Shot> shots(model.traits().shots_per_packet);
-  model.aim(utc_ns, shots);
-  return shots;
-}
-
 TEST(Hdl64Model, FiresAsTheManualTimesIt) {
-  const auto shots = shots_at(*make_lidar_model("hdl64s2"), kFullHour_utc_ns);
+  const auto shots = shots_at("hdl64s2", kFullHour_utc_ns);
   ASSERT_EQ(shots.size(), 384U);
   EXPECT_EQ(shots[1].after_ns, 1'260);
   EXPECT_EQ(shots[7].after_ns, 9'660);
@@ -54,7 +49,7 @@ TEST(Hdl64Model, TheUnitIsSmoothAndLikeRealOnes) {
 
 TEST(Hdl64Model, APointLiesWhereTheManualsArithmeticPutsIt) {
   const auto unit = hdl64_unit();
-  const Shot shot = shots_at(*make_lidar_model("hdl64s2"), kFullHour_utc_ns + 25'000'000)[0];
+  const Shot shot = shots_at("hdl64s2", kFullHour_utc_ns + 25'000'000)[0];
   EXPECT_NEAR(shot.azimuth_deg, 90.0 - 0.01 * unit[0].rotation_centideg, 1e-9);
   // x right, y forward, as the manual writes them.
   const double theta = shot.azimuth_deg * M_PI / 180.0;
@@ -78,19 +73,19 @@ TEST(Hdl64Model, PutsEveryFieldWhereTheManualSays) {
   for (std::size_t block = 0; block < 12; ++block) {
     EXPECT_EQ(byte_at(s2, 100 * block), 0xFFU);
     EXPECT_EQ(byte_at(s2, 100 * block + 1), block % 2 == 0 ? 0xEEU : 0xDDU);
-    const unsigned azimuth = byte_at(s2, 100 * block + 2) | byte_at(s2, 100 * block + 3) << 8;
+    const std::uint64_t azimuth = little_at(s2, 100 * block + 2, 2);
     EXPECT_EQ(azimuth, 9000U + static_cast<unsigned>(std::lround(17.28 * static_cast<double>(block / 2))));
   }
   EXPECT_EQ(byte_at(s2, 4), 0x34U);
   EXPECT_EQ(byte_at(s2, 5), 0x12U);
   EXPECT_EQ(byte_at(s2, 6), 0x5AU);
-  EXPECT_EQ(byte_at(s2, 1200) | byte_at(s2, 1201) << 8, 25'288U) << "the time of the packet's end";
+  EXPECT_EQ(little_at(s2, 1200, 2), 25'288U) << "the time of the packet's end";
   EXPECT_EQ(byte_at(s2, 1204), 'H');
   EXPECT_EQ(byte_at(s2, 1205), 8U);
   const auto s1 = make_lidar_model("hdl64s1")->encode(0, kFullHour_utc_ns, echoes);
   for (std::size_t block = 0; block < 12; ++block) {
     EXPECT_EQ(byte_at(s1, 100 * block + 1), block % 4 == 0 ? 0xDDU : 0xEEU);
-    EXPECT_EQ((byte_at(s1, 100 * block + 2) | byte_at(s1, 100 * block + 3) << 8) % 9, 0U);
+    EXPECT_EQ(little_at(s1, 100 * block + 2, 2) % 9, 0U);
   }
   EXPECT_EQ(std::string(reinterpret_cast<const char*>(&s1[1200]), 6), "Q DegC");
 }

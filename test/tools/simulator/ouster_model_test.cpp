@@ -4,7 +4,6 @@
 // documentation lists.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <vector>
 
@@ -12,27 +11,18 @@
 #include <nlohmann/json.hpp>
 
 #include "drivers/make_decoder.hpp"
-#include "tools/simulator/lidar_model.hpp"
+#include "support/lidar_model_probe.hpp"
 #include "tools/simulator/ouster_packets.hpp"
 #include "tools/simulator/ouster_units.hpp"
 
 namespace landfix::tools::simulator {
 namespace {
 
-constexpr std::int64_t kTurnStart_utc_ns = 1'777'881'600'000'000'000;
+using test::kFullHour_utc_ns;
+using test::little_at;
+using test::shots_at;
+
 constexpr double kRadians_per_deg = std::numbers::pi / 180.0;
-
-std::uint64_t number_at(const std::vector<std::byte>& bytes, std::size_t at, std::size_t size) {
-  std::uint64_t value = 0;
-  std::memcpy(&value, bytes.data() + at, size);
-  return value;
-}
-
-std::vector<Shot> shots_at(const LidarModel& model, std::int64_t utc_ns) {
-  std::vector<Shot> shots(model.traits().shots_per_packet);
-  model.aim(utc_ns, shots);
-  return shots;
-}
 
 TEST(OusterUnits, PointTheirBeamsAsTheFamiliesDo) {
   for (const ouster::Unit& unit : ouster::units()) {
@@ -58,7 +48,7 @@ TEST(OusterModel, TurnsClockwiseFromTheBackInStepWithTheTenthsOfASecond) {
     const auto model = make_lidar_model(unit.name);
     const double azimuth_deg = ouster::beams_of(unit)[0].azimuth_deg;
     for (int eighth = 0; eighth < 8; ++eighth) {
-      const Shot shot = shots_at(*model, kTurnStart_utc_ns + eighth * std::int64_t{12'500'000})[0];
+      const Shot shot = shots_at(*model, kFullHour_utc_ns + eighth * std::int64_t{12'500'000})[0];
       EXPECT_NEAR(std::remainder(shot.azimuth_deg - (180.0 + 45.0 * eighth + azimuth_deg), 360.0), 0.0, 1e-9);
       // Beams start where the encoder points, at the height of the optical plane.
       const double turned_rad = (180.0 + 45.0 * eighth) * kRadians_per_deg;
@@ -109,44 +99,44 @@ TEST(OusterPackets, PutEveryHeaderFieldWhereTheDocumentationSays) {
                               .serial_number = 122'201'000'998,
                               .init_id = 7'109'750};
   const auto standard = lidar_packet(format, moment, echoes);
-  EXPECT_EQ(number_at(standard, 0, 2), 1U);
-  EXPECT_EQ(number_at(standard, 2, 2), 1795U);
-  EXPECT_EQ(number_at(standard, 4, 3), 7'109'750U);
-  EXPECT_EQ(number_at(standard, 7, 5), 122'201'000'998U);
-  EXPECT_EQ(number_at(standard, 12, 8), 0U);
+  EXPECT_EQ(little_at(standard, 0, 2), 1U);
+  EXPECT_EQ(little_at(standard, 2, 2), 1795U);
+  EXPECT_EQ(little_at(standard, 4, 3), 7'109'750U);
+  EXPECT_EQ(little_at(standard, 7, 5), 122'201'000'998U);
+  EXPECT_EQ(little_at(standard, 12, 8), 0U);
   const std::size_t second = 32 + 12 + 4 * 128;
-  EXPECT_EQ(number_at(standard, second, 8), 0x0123'4567'89AB'CDEFU + 97'656U);
-  EXPECT_EQ(number_at(standard, second + 8, 2), 113U);
-  EXPECT_EQ(number_at(standard, second + 10, 2), 1U);
-  EXPECT_EQ(number_at(standard, standard.size() - 32, 8), 0U);
-  EXPECT_NE(number_at(standard, standard.size() - 8, 8), 0U);
+  EXPECT_EQ(little_at(standard, second, 8), 0x0123'4567'89AB'CDEFU + 97'656U);
+  EXPECT_EQ(little_at(standard, second + 8, 2), 113U);
+  EXPECT_EQ(little_at(standard, second + 10, 2), 1U);
+  EXPECT_EQ(little_at(standard, standard.size() - 32, 8), 0U);
+  EXPECT_NE(little_at(standard, standard.size() - 8, 8), 0U);
 
   format.fusa_header = true;
   format.checksum = false;
   const auto fusa = lidar_packet(format, moment, echoes);
-  EXPECT_EQ(number_at(fusa, 0, 1), 1U);
-  EXPECT_EQ(number_at(fusa, 1, 3), 7'109'750U);
-  EXPECT_EQ(number_at(fusa, 4, 4), 1795U);
-  EXPECT_EQ(number_at(fusa, 11, 5), 122'201'000'998U);
-  EXPECT_EQ(number_at(fusa, fusa.size() - 8, 8), 0U);
+  EXPECT_EQ(little_at(fusa, 0, 1), 1U);
+  EXPECT_EQ(little_at(fusa, 1, 3), 7'109'750U);
+  EXPECT_EQ(little_at(fusa, 4, 4), 1795U);
+  EXPECT_EQ(little_at(fusa, 11, 5), 122'201'000'998U);
+  EXPECT_EQ(little_at(fusa, fusa.size() - 8, 8), 0U);
 
   format = {.profile = ouster::Profile::legacy, .rows = 64, .columns_per_turn = 512};
   const auto legacy = lidar_packet(format, moment, echoes);
-  EXPECT_EQ(number_at(legacy, 788, 8), 0x0123'4567'89AB'CDEFU + 97'656U);
-  EXPECT_EQ(number_at(legacy, 788 + 8, 2), 113U);
-  EXPECT_EQ(number_at(legacy, 788 + 10, 2), 1795U);
-  EXPECT_EQ(number_at(legacy, 788 + 12, 4), 113U * 176U);
-  EXPECT_EQ(number_at(legacy, 788 + 784, 4), 0xFFFF'FFFFU);
+  EXPECT_EQ(little_at(legacy, 788, 8), 0x0123'4567'89AB'CDEFU + 97'656U);
+  EXPECT_EQ(little_at(legacy, 788 + 8, 2), 113U);
+  EXPECT_EQ(little_at(legacy, 788 + 10, 2), 1795U);
+  EXPECT_EQ(little_at(legacy, 788 + 12, 4), 113U * 176U);
+  EXPECT_EQ(little_at(legacy, 788 + 784, 4), 0xFFFF'FFFFU);
 }
 
 TEST(OusterModel, SendsWhatItsImuSays) {
-  const auto old = make_lidar_model("os1-64")->encode_telemetry({.utc_ns = kTurnStart_utc_ns});
+  const auto old = make_lidar_model("os1-64")->encode_telemetry({.utc_ns = kFullHour_utc_ns});
   ASSERT_EQ(old.size(), 48U);
-  EXPECT_EQ(number_at(old, 8, 8), static_cast<std::uint64_t>(kTurnStart_utc_ns));
-  EXPECT_EQ(number_at(old, 32, 4), 0x3F80'0000U) << "1 g upwards";
-  const auto recent = make_lidar_model("os1-128")->encode_telemetry({.utc_ns = kTurnStart_utc_ns});
+  EXPECT_EQ(little_at(old, 8, 8), static_cast<std::uint64_t>(kFullHour_utc_ns));
+  EXPECT_EQ(little_at(old, 32, 4), 0x3F80'0000U) << "1 g upwards";
+  const auto recent = make_lidar_model("os1-128")->encode_telemetry({.utc_ns = kFullHour_utc_ns});
   ASSERT_EQ(recent.size(), 308U);
-  EXPECT_EQ(number_at(recent, 0, 2), 2U);
+  EXPECT_EQ(little_at(recent, 0, 2), 2U);
 }
 
 TEST(OusterModel, GivesOutItsMetadataInBothLayouts) {
@@ -229,11 +219,11 @@ TEST_P(EveryProfile, ComesBackFromTheDecoder) {
     const auto payload = lidar_packet(format,
                                       {.frame_id = fusa ? 70'000U : 7U,
                                        .first_column = 16 * p,
-                                       .utc_ns = kTurnStart_utc_ns + after_ns,
+                                       .utc_ns = kFullHour_utc_ns + after_ns,
                                        .column_ns = kColumn_ns},
                                       first, dual ? std::span<const Echo>(second) : std::span<const Echo>());
     EXPECT_TRUE(drivers::looks_like(model, payload));
-    const auto result = decoder.decode({payload, kTurnStart_utc_ns + after_ns + 1'000'000}, sweeps);
+    const auto result = decoder.decode({payload, kFullHour_utc_ns + after_ns + 1'000'000}, sweeps);
     ASSERT_EQ(result.status, drivers::DecodeStatus::decoded) << to_string(result.status);
     completed = result.sweep_completed;
   }

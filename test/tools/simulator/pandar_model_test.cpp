@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <numbers>
 #include <set>
@@ -15,28 +14,16 @@
 
 #include <gtest/gtest.h>
 
-#include "tools/simulator/lidar_model.hpp"
+#include "support/lidar_model_probe.hpp"
 #include "tools/simulator/pandar_tables.hpp"
 
 namespace landfix::tools::simulator {
 namespace {
 
-constexpr std::int64_t kFullHour_utc_ns = 1'777'881'600'000'000'000;  // 2026-05-04 08:00:00
-
-unsigned byte_at(const auto& payload, std::size_t at) { return std::to_integer<unsigned>(payload[at]); }
-
-template <class Integer>
-Integer integer_at(const auto& payload, std::size_t at) {
-  Integer value;
-  std::memcpy(&value, &payload[at], sizeof(value));
-  return value;
-}
-
-std::vector<Shot> shots_at(const LidarModel& model, std::int64_t utc_ns) {
-  std::vector<Shot> shots(model.traits().shots_per_packet);
-  model.aim(utc_ns, shots);
-  return shots;
-}
+using test::byte_at;
+using test::kFullHour_utc_ns;
+using test::little_at;
+using test::shots_at;
 
 TEST(PandarTables, AgreeWithTheRoundedListOfThePandar40pManual) {
   // Appendix I: elevation in steps of a third of a degree, and the column of emitters the laser sits in.
@@ -147,16 +134,16 @@ TEST(PandarModel, PutsEveryFieldWhereTheManualSays) {
   for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(byte_at(payload, i), header[i]) << i;
   for (std::size_t block = 0; block < 6; ++block) {
     const double turned_us = 59'999'624.059 + 55.56 * static_cast<double>(block + 1);
-    EXPECT_NEAR(integer_at<std::uint16_t>(payload, 8 + 194 * block), std::fmod(0.36 * turned_us, 36000.0),
-                0.51);
+    EXPECT_NEAR(static_cast<double>(little_at(payload, 8 + 194 * block, 2)),
+                std::fmod(0.36 * turned_us, 36000.0), 0.51);
   }
   EXPECT_EQ(byte_at(payload, 12), 0x5AU);
   EXPECT_EQ(byte_at(payload, 8 + 6 * 194 - 1), 0xFFU);
-  EXPECT_EQ(integer_at<std::uint16_t>(payload, 1172 + 8), 600U);
-  EXPECT_EQ(integer_at<std::uint32_t>(payload, 1172 + 10), 999'999U);
+  EXPECT_EQ(little_at(payload, 1172 + 8, 2), 600U);
+  EXPECT_EQ(little_at(payload, 1172 + 10, 4), 999'999U);
   const unsigned tail[] = {0x37, 0x42, 126, 5, 4, 8, 0, 59};
   for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(byte_at(payload, 1172 + 14 + i), tail[i]) << i;
-  EXPECT_EQ(integer_at<std::uint32_t>(payload, 1194), 0x4567'89ABU);
+  EXPECT_EQ(little_at(payload, 1194, 4), 0x4567'89ABU);
 }
 
 TEST(PandarModel, WritesThePandar40pWithoutHeaderAndNumber) {
@@ -170,7 +157,7 @@ TEST(PandarModel, WritesThePandar40pWithoutHeaderAndNumber) {
     EXPECT_EQ(byte_at(payload, 124 * block + 1), 0xEEU);
   }
   EXPECT_EQ(byte_at(payload, 1239), 0x11U);
-  EXPECT_EQ(integer_at<std::uint32_t>(payload, 1240 + 10), 0U);
+  EXPECT_EQ(little_at(payload, 1240 + 10, 4), 0U);
   const unsigned tail[] = {0x37, 0x42, 26, 5, 4, 8, 0, 3};
   for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(byte_at(payload, 1240 + 14 + i), tail[i]) << i;
 }
@@ -183,7 +170,7 @@ TEST(PandarModel, MeasuresFromItsCentreAlthoughTheBeamStartsBesideIt) {
     const auto shots = shots_at(*model, kFullHour_utc_ns);
     for (const std::size_t shot : {0UL, 63UL, 200UL}) {
       const std::size_t at = 8 + 194 * (shot / 64) + 2 + 3 * (shot % 64);
-      const double measured_m = 0.004 * integer_at<std::uint16_t>(payload, at);
+      const double measured_m = 0.004 * static_cast<double>(little_at(payload, at, 2));
       // The centre is up to 38.73 mm behind the origin, seen along the beam.
       const double behind_m = shots[shot].origin_m.dot(shots[shot].direction());
       EXPECT_NEAR(measured_m, range_m + behind_m, 0.0021 + 0.001 / range_m) << range_m;
@@ -228,7 +215,7 @@ TEST(PandarGpsPacket, CarriesTheDateInDigitsFromBehindAndASentence) {
             "\xFF\xEE"
             "625040"
             "105180");  // 26-05-04, 08:15:01
-  EXPECT_EQ(integer_at<std::uint32_t>(payload, 14), 7U);
+  EXPECT_EQ(little_at(payload, 14, 4), 7U);
   EXPECT_EQ(text.substr(18, 46), "$GPRMC,081501,A,4807.0380,N,01130.0000,W,000.0");
   EXPECT_EQ(text.substr(505, 3),
             "\xDF"

@@ -10,23 +10,15 @@
 #include <gtest/gtest.h>
 
 #include "drivers/make_decoder.hpp"
-#include "tools/simulator/lidar_model.hpp"
+#include "support/lidar_model_probe.hpp"
 
 namespace landfix::tools::simulator {
 namespace {
 
-constexpr std::int64_t kFullHour_utc_ns = 1'777'881'600'000'000'000;  // 2026-05-04 08:00:00
-
-unsigned byte_at(const auto& payload, std::size_t at) { return std::to_integer<unsigned>(payload[at]); }
-unsigned big16_at(const auto& payload, std::size_t at) {
-  return byte_at(payload, at) << 8 | byte_at(payload, at + 1);
-}
-
-std::vector<Shot> shots_at(const LidarModel& model, std::int64_t utc_ns) {
-  std::vector<Shot> shots(model.traits().shots_per_packet);
-  model.aim(utc_ns, shots);
-  return shots;
-}
+using test::big_at;
+using test::byte_at;
+using test::kFullHour_utc_ns;
+using test::shots_at;
 
 TEST(RobosenseModel, FiresThirtyTwoLasersByTheManualsFormula) {
   const auto model = make_lidar_model("rs32");
@@ -44,19 +36,19 @@ TEST(RobosenseModel, FiresThirtyTwoLasersByTheManualsFormula) {
 }
 
 TEST(RobosenseModel, FiresSixteenLasersTwiceABlock) {
-  const auto rs16 = shots_at(*make_lidar_model("rs16"), kFullHour_utc_ns);
+  const auto rs16 = shots_at("rs16", kFullHour_utc_ns);
   EXPECT_EQ(rs16[1].after_ns, 2'800);
   EXPECT_EQ(rs16[15].after_ns, 42'000);
   EXPECT_EQ(rs16[16].after_ns, 55'500);
   EXPECT_EQ(rs16[32 * 11 + 31].after_ns, 11 * 111'000 + 97'500);
-  const auto helios = shots_at(*make_lidar_model("helios16p"), kFullHour_utc_ns);
+  const auto helios = shots_at("helios16p", kFullHour_utc_ns);
   EXPECT_EQ(helios[4].after_ns, 13'260);
   EXPECT_EQ(helios[31].after_ns, 55'560 + 43'910);
   EXPECT_EQ(helios[32].after_ns, 111'120);
 }
 
 TEST(RobosenseModel, UnitsLieAroundTheNominalAngles) {
-  const auto rs32 = shots_at(*make_lidar_model("rs32"), kFullHour_utc_ns);
+  const auto rs32 = shots_at("rs32", kFullHour_utc_ns);
   // The manual's slot 1 looks -10.281 deg down, slot 10 -2.672 deg aside; four columns, +-8 and +-2.672 deg.
   EXPECT_NEAR(rs32[0].elevation_deg, -10.281, 0.07);
   std::map<int, int> columns;
@@ -68,8 +60,8 @@ TEST(RobosenseModel, UnitsLieAroundTheNominalAngles) {
     }
   }
   EXPECT_EQ(columns, (std::map<int, int>{{-8, 12}, {-2, 5}, {2, 5}, {8, 10}}));
-  const auto rs16 = shots_at(*make_lidar_model("rs16"), kFullHour_utc_ns);
-  const auto helios = shots_at(*make_lidar_model("helios16p"), kFullHour_utc_ns);
+  const auto rs16 = shots_at("rs16", kFullHour_utc_ns);
+  const auto helios = shots_at("helios16p", kFullHour_utc_ns);
   for (std::size_t i = 0; i < 16; ++i) {
     const double step_deg = 2.0 * static_cast<double>(i % 8);
     EXPECT_NEAR(rs16[i].elevation_deg, i < 8 ? -15.0 + step_deg : 15.0 - step_deg, 0.05);
@@ -87,24 +79,23 @@ TEST(RobosenseModel, PutsEveryFieldWhereTheManualSays) {
     echoes[383] = {.range_m = 0x0102 * unit_m - 0.4 * unit_m, .reflectivity = 0xFF};
     const auto payload = model->encode(0, kFullHour_utc_ns + 123'456'789'000, echoes);
     ASSERT_EQ(payload.size(), 1248U);
-    EXPECT_EQ(big16_at(payload, 0), 0x55AAU);
-    EXPECT_EQ(big16_at(payload, 2), helios ? 0x055AU : 0x050AU);
-    for (std::size_t block = 0; block < 12; ++block) EXPECT_EQ(big16_at(payload, 42 + 100 * block), 0xFFEEU);
-    EXPECT_EQ(big16_at(payload, 46), 0x8348U);
+    EXPECT_EQ(big_at(payload, 0, 2), 0x55AAU);
+    EXPECT_EQ(big_at(payload, 2, 2), helios ? 0x055AU : 0x050AU);
+    for (std::size_t block = 0; block < 12; ++block) EXPECT_EQ(big_at(payload, 42 + 100 * block, 2), 0xFFEEU);
+    EXPECT_EQ(big_at(payload, 46, 2), 0x8348U);
     EXPECT_EQ(byte_at(payload, 48), 0x5AU);
-    EXPECT_EQ(big16_at(payload, 1239), 0x0102U);
+    EXPECT_EQ(big_at(payload, 1239, 2), 0x0102U);
     EXPECT_EQ(byte_at(payload, 1241), 0xFFU);
-    EXPECT_EQ(big16_at(payload, 1246), 0x00FFU);
+    EXPECT_EQ(big_at(payload, 1246, 2), 0x00FFU);
     if (helios) {
       EXPECT_EQ(byte_at(payload, 17), 1U);
-      const unsigned long seconds = std::uint64_t{big16_at(payload, 22)} << 16 | big16_at(payload, 24);
-      EXPECT_EQ(seconds, 1'777'881'723U);
-      EXPECT_EQ(big16_at(payload, 26) << 16 | big16_at(payload, 28), 456'789U);
+      EXPECT_EQ(big_at(payload, 20, 6), 1'777'881'723U);
+      EXPECT_EQ(big_at(payload, 26, 4), 456'789U);
     } else {
       const std::array<unsigned, 6> date{26, 5, 4, 8, 2, 3};
       for (std::size_t i = 0; i < date.size(); ++i) EXPECT_EQ(byte_at(payload, 20 + i), date[i]) << i;
-      EXPECT_EQ(big16_at(payload, 26), 456U);
-      EXPECT_EQ(big16_at(payload, 28), 789U);
+      EXPECT_EQ(big_at(payload, 26, 2), 456U);
+      EXPECT_EQ(big_at(payload, 28, 2), 789U);
     }
   }
 }
@@ -112,21 +103,21 @@ TEST(RobosenseModel, PutsEveryFieldWhereTheManualSays) {
 TEST(RobosenseModel, SendsItsAnglesOnceASecond) {
   const auto rs32 = make_lidar_model("rs32")->encode_telemetry({.utc_ns = kFullHour_utc_ns});
   ASSERT_EQ(rs32.size(), 1248U);
-  EXPECT_EQ(big16_at(rs32, 0), 0xA5FFU);
-  EXPECT_EQ(big16_at(rs32, 8), 600U);
+  EXPECT_EQ(big_at(rs32, 0, 2), 0xA5FFU);
+  EXPECT_EQ(big_at(rs32, 8, 2), 600U);
   EXPECT_EQ(byte_at(rs32, 300), 1U);
   EXPECT_EQ(byte_at(rs32, 468), 1U);
-  EXPECT_EQ(big16_at(rs32, 469), 10'274U);
+  EXPECT_EQ(big_at(rs32, 469, 2), 10'274U);
   EXPECT_EQ(byte_at(rs32, 564), 0U);
-  EXPECT_EQ(big16_at(rs32, 565), 8'391U);
-  EXPECT_EQ(big16_at(rs32, 1246), 0x0FF0U);
+  EXPECT_EQ(big_at(rs32, 565, 2), 8'391U);
+  EXPECT_EQ(big_at(rs32, 1246, 2), 0x0FF0U);
   const auto rs16 = make_lidar_model("rs16")->encode_telemetry({.utc_ns = kFullHour_utc_ns});
-  EXPECT_EQ(byte_at(rs16, 1165) << 16 | big16_at(rs16, 1166), 150'300U);
-  EXPECT_EQ(byte_at(rs16, 1189) << 16 | big16_at(rs16, 1190), 149'860U);
+  EXPECT_EQ(big_at(rs16, 1165, 3), 150'300U);
+  EXPECT_EQ(big_at(rs16, 1189, 3), 149'860U);
   const auto helios = make_lidar_model("helios16p")->encode_telemetry({.utc_ns = kFullHour_utc_ns});
   EXPECT_EQ(byte_at(helios, 300), 4U);
   EXPECT_EQ(byte_at(helios, 468), 0U);
-  EXPECT_EQ(big16_at(helios, 469), 1'494U);
+  EXPECT_EQ(big_at(helios, 469, 2), 1'494U);
   EXPECT_EQ(byte_at(helios, 468 + 48), 0xFFU) << "no more than sixteen lasers";
 }
 

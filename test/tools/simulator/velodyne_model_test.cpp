@@ -11,24 +11,15 @@
 
 #include <gtest/gtest.h>
 
-#include "tools/simulator/lidar_model.hpp"
+#include "support/lidar_model_probe.hpp"
 
 namespace landfix::tools::simulator {
 namespace {
 
-constexpr std::int64_t kFullHour_utc_ns = 1'777'881'600'000'000'000;
-
-unsigned byte_at(const auto& payload, std::size_t at) { return std::to_integer<unsigned>(payload[at]); }
-unsigned word_at(const auto& payload, std::size_t at) {
-  return byte_at(payload, at) | byte_at(payload, at + 1) << 8;
-}
-
-std::vector<Shot> shots_at(const char* name, std::int64_t utc_ns) {
-  const auto model = make_lidar_model(name);
-  std::vector<Shot> shots(model->traits().shots_per_packet);
-  model->aim(utc_ns, shots);
-  return shots;
-}
+using test::byte_at;
+using test::kFullHour_utc_ns;
+using test::little_at;
+using test::shots_at;
 
 TEST(Velodyne32Model, ReturnsLieWhereTheManualsArithmeticPutsThem) {
   struct Example {
@@ -172,11 +163,11 @@ TEST(VelodyneModels, PutEveryFieldWhereTheManualsSay) {
     echoes[32] = {.range_m = 20.0, .reflectivity = 77};
     const auto payload = model->encode(0, kFullHour_utc_ns + 1'234'567'000, echoes);
     ASSERT_EQ(payload.size(), 1206U);
-    EXPECT_EQ(word_at(payload, 0), 0xEEFFU);
-    EXPECT_EQ(word_at(payload, 100), std::string_view(sensor.name) == "vls128" ? 0xDDFFU : 0xEEFFU);
-    EXPECT_EQ(word_at(payload, 104), static_cast<unsigned>(std::lround(20.0 / sensor.range_unit_m)));
+    EXPECT_EQ(little_at(payload, 0, 2), 0xEEFFU);
+    EXPECT_EQ(little_at(payload, 100, 2), std::string_view(sensor.name) == "vls128" ? 0xDDFFU : 0xEEFFU);
+    EXPECT_EQ(little_at(payload, 104, 2), static_cast<unsigned>(std::lround(20.0 / sensor.range_unit_m)));
     EXPECT_EQ(byte_at(payload, 106), 77U);
-    EXPECT_EQ(word_at(payload, 1200) | word_at(payload, 1202) << 16, sensor.time_us) << sensor.name;
+    EXPECT_EQ(little_at(payload, 1200, 4), sensor.time_us) << sensor.name;
     EXPECT_EQ(byte_at(payload, 1204), 0x37U);
     EXPECT_EQ(byte_at(payload, 1205), sensor.product);
   }
@@ -184,8 +175,8 @@ TEST(VelodyneModels, PutEveryFieldWhereTheManualsSay) {
   const auto payload = vls128->encode(0, kFullHour_utc_ns, std::vector<Echo>(384));
   constexpr unsigned kFlags[] = {0xEEFF, 0xDDFF, 0xCCFF, 0xBBFF};
   for (std::size_t block = 0; block < 12; ++block) {
-    EXPECT_EQ(word_at(payload, 100 * block), kFlags[block % 4]);
-    EXPECT_EQ(word_at(payload, 100 * block + 2), word_at(payload, 100 * (block / 4 * 4) + 2))
+    EXPECT_EQ(little_at(payload, 100 * block, 2), kFlags[block % 4]);
+    EXPECT_EQ(little_at(payload, 100 * block + 2, 2), little_at(payload, 100 * (block / 4 * 4) + 2, 2))
         << "the banks of a sequence share an azimuth";
   }
 }

@@ -8,24 +8,19 @@
 
 #include <gtest/gtest.h>
 
-#include "tools/simulator/lidar_model.hpp"
+#include "support/lidar_model_probe.hpp"
 
 namespace landfix::tools::simulator {
 namespace {
 
-constexpr std::int64_t kFullHour_utc_ns = 1'777'881'600'000'000'000;
-
-unsigned byte_at(const auto& payload, std::size_t at) { return std::to_integer<unsigned>(payload[at]); }
-
-std::vector<Shot> shots_at(const LidarModel& model, std::int64_t utc_ns) {
-  std::vector<Shot> shots(model.traits().shots_per_packet);
-  model.aim(utc_ns, shots);
-  return shots;
-}
+using test::byte_at;
+using test::kFullHour_utc_ns;
+using test::little_at;
+using test::shots_at;
 
 TEST(Vlp16Model, BeamsCrossAboutFortyTwoMillimetresOut) {
   // The offsets come from a drawing in which all beams pass one point: another way to the same table.
-  const auto shots = shots_at(*make_lidar_model("vlp16"), kFullHour_utc_ns);
+  const auto shots = shots_at("vlp16", kFullHour_utc_ns);
   for (std::size_t laser = 0; laser < 16; ++laser) {
     const double elevation_deg =
         laser % 2 == 0 ? -15.0 + static_cast<double>(laser) : static_cast<double>(laser);
@@ -36,8 +31,8 @@ TEST(Vlp16Model, BeamsCrossAboutFortyTwoMillimetresOut) {
 }
 
 TEST(Vlp16Model, TheHiResBeamsAreTwoThirdsAsSteepAndAntisymmetric) {
-  const auto puck = shots_at(*make_lidar_model("vlp16"), kFullHour_utc_ns);
-  const auto hi_res = shots_at(*make_lidar_model("vlp16hires"), kFullHour_utc_ns);
+  const auto puck = shots_at("vlp16", kFullHour_utc_ns);
+  const auto hi_res = shots_at("vlp16hires", kFullHour_utc_ns);
   for (std::size_t laser = 0; laser < 16; ++laser) {
     EXPECT_NEAR(hi_res[laser].elevation_deg, puck[laser].elevation_deg * 2.0 / 3.0, 1e-9);
     EXPECT_DOUBLE_EQ(hi_res[laser].origin_m.z(), -hi_res[15 - laser].origin_m.z());
@@ -68,7 +63,7 @@ TEST(Vlp16Model, ReturnsLieWhereTheManualsArithmeticPutsThem) {
   const Example examples[] = {{1, 27'777'778, 10.000, {-1.7376, -9.8463, 0.1738}},
                               {31, 99'972'222, 24.690, {23.8485, -0.0930, 6.3790}}};
   for (const Example& example : examples) {
-    const Shot shot = shots_at(*make_lidar_model("vlp16"), kFullHour_utc_ns + example.block_ns)[example.shot];
+    const Shot shot = shots_at("vlp16", kFullHour_utc_ns + example.block_ns)[example.shot];
     const Eigen::Vector3d point_m = shot.origin_m + example.range_m * shot.direction();
     EXPECT_LT((point_m - example.point_m).cwiseAbs().maxCoeff(), 1e-4) << example.shot;
   }
@@ -97,8 +92,8 @@ TEST(Vlp16Model, PutsEveryFieldWhereTheManualSays) {
     EXPECT_EQ(byte_at(payload, 100 * block + 1), 0xEEU);
     const double turned_us =
         static_cast<double>(after_hour_us) + 0.999 + 110.592 * static_cast<double>(block);
-    const unsigned azimuth = byte_at(payload, 100 * block + 2) | byte_at(payload, 100 * block + 3) << 8;
-    EXPECT_NEAR(azimuth, std::fmod(0.36 * turned_us, 36000.0), 0.501) << block;
+    const std::uint64_t azimuth = little_at(payload, 100 * block + 2, 2);
+    EXPECT_NEAR(static_cast<double>(azimuth), std::fmod(0.36 * turned_us, 36000.0), 0.501) << block;
   }
   EXPECT_EQ(byte_at(payload, 4), 0xCDU);
   EXPECT_EQ(byte_at(payload, 5), 0xABU);
@@ -122,9 +117,7 @@ TEST(VelodynePositionPacket, CarriesTimePulseAndACheckedSentence) {
                                                                     .speed_mps = 10.0,
                                                                     .course_deg = 90.0});
   ASSERT_EQ(payload.size(), 512U);
-  const unsigned time_us = byte_at(payload, 198) | byte_at(payload, 199) << 8 | byte_at(payload, 200) << 16 |
-                           byte_at(payload, 201) << 24;
-  EXPECT_EQ(time_us, 901'000'000U);  // 08:15:01
+  EXPECT_EQ(little_at(payload, 198, 4), 901'000'000U);  // 08:15:01
   EXPECT_EQ(byte_at(payload, 202), 2U);
   std::string sentence;
   for (std::size_t at = 206; byte_at(payload, at) != 0; ++at)
