@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "drivers/make_decoder.hpp"
+#include "support/error_of.hpp"
 
 namespace landfix::drivers::hesai {
 namespace {
@@ -23,12 +24,7 @@ std::vector<Beam> parse(std::string_view text) {
 }
 
 std::string error_of(std::string_view text) {
-  try {
-    static_cast<void>(parse(text));
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::error_of([&] { return parse(text); });
 }
 
 TEST(HesaiCalibration, ReadsAnglesAndKeepsFiringTimes) {

@@ -1,12 +1,13 @@
 #include "drivers/calibration_text.hpp"
 
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "support/error_of.hpp"
 
 namespace landfix::drivers {
 namespace {
@@ -54,12 +55,7 @@ TEST(CalibrationText, LeavesTheByteOrderMarkOutWhereThereIsOne) {
 }
 
 std::string error_of_index(double number, std::size_t first, std::size_t count) {
-  try {
-    static_cast<void>(to_index(number, first, count, "channel", "unit.csv", 7));
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::error_of([&] { return to_index(number, first, count, "channel", "unit.csv", 7); });
 }
 
 TEST(CalibrationText, CountsBeamsFromWhereTheFormatDoes) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/decoder_bench.hpp"
+#include "support/decoder_bench.hpp"
 #include "support/ouster_packets.hpp"
 
 namespace landfix::drivers {

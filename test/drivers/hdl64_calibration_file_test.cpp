@@ -1,13 +1,13 @@
 #include "drivers/velodyne/hdl64_calibration_file.hpp"
 
 #include <functional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/error_of.hpp"
 #include "support/hdl64_calibration_text.hpp"
 
 namespace landfix::drivers::velodyne {
@@ -24,12 +24,7 @@ Hdl64Calibration parse(std::string_view text) {
 }
 
 std::string error_of(std::string_view text) {
-  try {
-    static_cast<void>(parse(text));
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::error_of([&] { return parse(text); });
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {

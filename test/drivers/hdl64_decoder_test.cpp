@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/decoder_bench.hpp"
+#include "support/decoder_bench.hpp"
 #include "support/hdl64_packets.hpp"
 
 namespace landfix::drivers {

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/decoder_bench.hpp"
 #include "drivers/velodyne/position_packet.hpp"
+#include "support/decoder_bench.hpp"
 #include "support/hdl64_packets.hpp"
 #include "support/ouster_packets.hpp"
 #include "support/robosense_packets.hpp"

@@ -1,4 +1,3 @@
-#include <stdexcept>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -7,6 +6,7 @@
 
 #include "drivers/calibration.hpp"
 #include "drivers/ouster/metadata_file.hpp"
+#include "support/error_of.hpp"
 
 namespace landfix::drivers::ouster {
 namespace {
@@ -59,12 +59,8 @@ Metadata parse(const json& file, std::string_view model = "os1-64") {
 }
 
 std::string error_of(std::string_view text, std::string_view model = "os1-64") {
-  try {
-    static_cast<void>(parse_metadata(*find_sensor_model(model), std::as_bytes(std::span(text)), "unit.json"));
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::error_of(
+      [&] { return parse_metadata(*find_sensor_model(model), std::as_bytes(std::span(text)), "unit.json"); });
 }
 
 /// Of a file with one value changed.

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "drivers/civil_time.hpp"
-#include "drivers/decoder_bench.hpp"
+#include "support/decoder_bench.hpp"
 #include "support/synthetic_packets.hpp"
 
 namespace landfix::drivers {

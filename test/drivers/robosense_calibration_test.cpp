@@ -7,6 +7,7 @@
 #include "drivers/calibration.hpp"
 #include "drivers/make_decoder.hpp"
 #include "drivers/robosense/calibration.hpp"
+#include "support/error_of.hpp"
 
 namespace landfix::drivers::robosense {
 namespace {
@@ -18,12 +19,7 @@ std::vector<Beam> parse(std::string_view text) {
 }
 
 std::string error_of(std::string_view text) {
-  try {
-    static_cast<void>(parse(text));
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::error_of([&] { return parse(text); });
 }
 
 TEST(RobosenseCalibration, ReadsALineALaserAndRanksTheRings) {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/decoder_bench.hpp"
 #include "drivers/robosense/decoder.hpp"
+#include "support/decoder_bench.hpp"
 #include "support/robosense_packets.hpp"
 
 namespace landfix::drivers {

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/decoder_bench.hpp"
 #include "drivers/velodyne/azimuth_offsets.hpp"
 #include "drivers/velodyne/vls128_decoder.hpp"
+#include "support/decoder_bench.hpp"
 #include "support/synthetic_packets.hpp"
 
 namespace landfix::drivers {

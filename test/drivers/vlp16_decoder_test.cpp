@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/decoder_bench.hpp"
 #include "drivers/velodyne/block_decoder.hpp"
+#include "support/decoder_bench.hpp"
 #include "support/synthetic_packets.hpp"
 
 namespace landfix::drivers {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "platform/atomic_file.hpp"
+#include "support/error_of.hpp"
 #include "support/test_data.hpp"
 
 namespace landfix::platform {
@@ -25,12 +26,7 @@ Configuration parse(const std::string& text) {
 }
 
 std::string error_of(const std::string& text) {
-  try {
-    (void)parse_configuration(text, "a.toml");
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::error_of([&] { return parse_configuration(text, "a.toml"); });
 }
 
 /// The error of one line below a section.

@@ -1,12 +1,12 @@
 #include "platform/pcap_source.hpp"
 
 #include <fstream>
-#include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "platform/pcap_writer.hpp"
+#include "support/error_of.hpp"
 #include "support/frames.hpp"
 #include "support/test_data.hpp"
 
@@ -58,12 +58,7 @@ Bytes pcapng_file(const std::vector<Bytes>& frames, std::uint64_t first_utc_ns) 
 }
 
 std::string error_of(const std::filesystem::path& path) {
-  try {
-    PcapSource source(path);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::error_of([&] { return PcapSource(path); });
 }
 
 class PcapSourceTest : public testing::Test {

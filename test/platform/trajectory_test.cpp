@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "platform/atomic_file.hpp"
+#include "support/error_of.hpp"
 #include "support/test_data.hpp"
 
 namespace landfix::platform {
@@ -16,12 +17,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string error_of(std::string_view text) {
-  try {
-    (void)parse_tum(text, "a.tum");
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::error_of([&] { return parse_tum(text, "a.tum"); });
 }
 
 std::int64_t stamp_of(std::string stamp) {

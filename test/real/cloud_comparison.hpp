@@ -20,6 +20,7 @@
 #include "ndt/pcd.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/pcap_source.hpp"
+#include "support/decoder_bench.hpp"
 
 namespace landfix::test {
 
@@ -109,26 +110,32 @@ struct RecordedPacket {
   return packets;
 }
 
-/// The sweeps of packets, whole and in order; the last one is what was left. Every packet must be decoded.
-[[nodiscard]] inline std::vector<std::vector<drivers::Point>> decode_sweeps(
-    std::string_view name, std::span<const RecordedPacket> packets, const drivers::DecoderOptions& options,
-    const drivers::Calibration& calibration = {}) {
-  const drivers::SensorModel& model = *drivers::find_sensor_model(name);
-  drivers::AnyDecoder decoder = drivers::make_decoder(model, options, calibration);
-  std::vector<drivers::Point> storage(2 * model.max_points_per_sweep());
-  drivers::SweepPair sweeps(storage);
-  std::vector<std::vector<drivers::Point>> all;
-  const auto keep = [&] {
-    all.emplace_back(sweeps.completed().points().begin(), sweeps.completed().points().end());
-  };
+using SweepCopy = DecoderBench::SweepCopy;
+
+/// Decodes packets, of which none may be refused or missing, to the last point.
+inline void decode_all(DecoderBench& bench, std::span<const RecordedPacket> packets) {
   for (const RecordedPacket& packet : packets) {
-    const drivers::DecodeResult result = decoder.decode(packet.view(), sweeps);
-    EXPECT_EQ(result.status, drivers::DecodeStatus::decoded);
-    if (result.sweep_completed) keep();
+    const auto status = bench.decode(packet.payload, packet.receive_utc_ns).status;
+    EXPECT_FALSE(drivers::is_rejected(status)) << to_string(status);
   }
-  if (decoder.flush(sweeps)) keep();
-  EXPECT_EQ(decoder.counters().lost_packets, 0U);
-  return all;
+  static_cast<void>(bench.flush());
+  EXPECT_EQ(bench.counters().lost_packets, 0U);
+}
+
+/// With room for any sweep of the model.
+[[nodiscard]] inline DecoderBench bench_of(std::string_view name, const drivers::DecoderOptions& options,
+                                           const drivers::Calibration& calibration = {}) {
+  return DecoderBench(name, options, drivers::find_sensor_model(name)->max_points_per_sweep(), calibration);
+}
+
+/// The sweeps of packets, whole and in order; the last one is what was left.
+[[nodiscard]] inline std::vector<SweepCopy> decode_sweeps(std::string_view name,
+                                                          std::span<const RecordedPacket> packets,
+                                                          const drivers::DecoderOptions& options,
+                                                          const drivers::Calibration& calibration = {}) {
+  DecoderBench bench = bench_of(name, options, calibration);
+  decode_all(bench, packets);
+  return bench.swept();
 }
 
 /// A cloud as the vendor's viewer writes it: right, forward, up, intensity.

@@ -15,7 +15,7 @@ TEST(Hdl32eRealData, AgreesWithTheVendorsViewer) {
   const auto sweeps = test::decode_sweeps("hdl32e", packets, {});
   const auto theirs = test::to_returns(test::read_viewer_csv(reference));
   ASSERT_GT(sweeps.size(), 1U);
-  const auto ours = test::to_returns(sweeps[1]);
+  const auto ours = test::to_returns(sweeps[1].points);
   ASSERT_EQ(ours.size(), theirs.size());
   const test::Differences most = test::compare(ours, theirs);
   test::print("hdl32e", most);
@@ -28,7 +28,7 @@ TEST(Hdl32eRealData, AgreesWithTheVendorsViewer) {
   // It turns each laser on by its firing time as well, singly; without that we are 35.7 us apart. Walls
   // cannot show it: neighbours look 1.33 deg apart, at the road mostly.
   const auto at_rest = test::decode_sweeps("hdl32e", packets, {.firing_time_azimuth = false});
-  const test::Differences without = test::compare(test::to_returns(at_rest[1]), theirs);
+  const test::Differences without = test::compare(test::to_returns(at_rest[1].points), theirs);
   test::print("hdl32e without firing times", without);
   EXPECT_GT(without.azimuth_rms_deg, 10.0 * most.azimuth_rms_deg);
 }

@@ -1,6 +1,5 @@
 // The recorded packets of an HDL-64E S1 against the cloud of the vendor's viewer, and its calibration against
 // the walls that it saw.
-#include <array>
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -20,31 +19,6 @@ namespace {
 
 using velodyne::Hdl64Calibration;
 using velodyne::Hdl64Laser;
-
-struct Decoded {
-  std::vector<std::vector<Point>> sweeps;  ///< the last one is what was left
-  std::array<std::uint64_t, kDecodeStatusCount> packets{};
-};
-
-Decoded decode(std::span<const test::RecordedPacket> packets, const Hdl64Calibration& calibration,
-               const DecoderOptions& options) {
-  const SensorModel& model = *find_sensor_model("hdl64s1");
-  AnyDecoder decoder = make_decoder(model, options, calibration);
-  std::vector<Point> storage(2 * model.max_points_per_sweep());
-  SweepPair sweeps(storage);
-  Decoded decoded;
-  const auto keep = [&] {
-    decoded.sweeps.emplace_back(sweeps.completed().points().begin(), sweeps.completed().points().end());
-  };
-  for (const test::RecordedPacket& packet : packets) {
-    const DecodeResult result = decoder.decode(packet.view(), sweeps);
-    ++decoded.packets[static_cast<std::size_t>(result.status)];
-    if (result.sweep_completed) keep();
-  }
-  EXPECT_EQ(decoder.counters().lost_packets, 0U);
-  if (decoder.flush(sweeps)) keep();
-  return decoded;
-}
 
 Hdl64Calibration calibration_of(const std::filesystem::path& path) {
   return velodyne::parse_hdl64_calibration(platform::read_file(path), path.string());
@@ -70,6 +44,7 @@ TEST(Hdl64RealData, ReproducesTheVendorsViewer) {
   LANDFIX_REAL_DATA(file, "hdl64e/s1-db.xml");
   LANDFIX_REAL_DATA(reference, "hdl64e/s1-at-wall-sweep.csv");
   const auto packets = test::read_packets(capture, 2368);
+  EXPECT_EQ(packets.size(), 306U);
   const auto calibration = calibration_of(file);
   const auto theirs = test::read_viewer_csv(reference);
   ASSERT_EQ(theirs.size(), 89'105U);
@@ -90,10 +65,9 @@ TEST(Hdl64RealData, ReproducesTheVendorsViewer) {
       {"firing times", {.two_point_correction = false}, 1e-3, 0.03, 0.25},
   };
   for (const Case& a_case : cases) {
-    const Decoded decoded = decode(packets, calibration, a_case.options);
-    EXPECT_EQ(decoded.packets[static_cast<std::size_t>(DecodeStatus::decoded)], 306U);
-    ASSERT_GE(decoded.sweeps.size(), 2U);
-    const auto& ours = decoded.sweeps[1];
+    const auto sweeps = test::decode_sweeps("hdl64s1", packets, a_case.options, calibration);
+    ASSERT_GE(sweeps.size(), 2U);
+    const auto& ours = sweeps[1].points;
     ASSERT_EQ(ours.size(), theirs.size());
     for (std::size_t i = 0; i < ours.size(); ++i) ASSERT_EQ(ours[i].intensity, theirs[i].intensity);
     const Apart result = apart(ours, theirs);
@@ -209,7 +183,7 @@ TEST(Hdl64RealData, TheCorrectionsMakeTheLasersSeeTheSameSurfaces) {
     const auto error_m = [&](double by) {
       Hdl64Calibration changed = calibration;
       for (Hdl64Laser& laser : changed.lasers) correction.scale(laser, by);
-      return correction.error_m(decode(packets, changed, {}).sweeps.at(1));
+      return correction.error_m(test::decode_sweeps("hdl64s1", packets, {}, changed).at(1).points);
     };
     const double right_m = error_m(1.0);
     const double without_m = error_m(0.0);

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <iostream>
-#include <map>
-#include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -14,6 +12,7 @@
 #include "drivers/big_endian.hpp"
 #include "drivers/robosense/decoder.hpp"
 #include "real/cloud_comparison.hpp"
+#include "real/wall_profiles.hpp"
 #include "support/test_data.hpp"
 
 namespace landfix::drivers {
@@ -21,6 +20,7 @@ namespace {
 
 using robosense::kBlocks;
 using robosense::kBlockSlots;
+using test::Profile;
 using test::RecordedPacket;
 using test::Return;
 
@@ -53,33 +53,16 @@ void select_as_the_reference(RecordedPacket& packet) {
   }
 }
 
-struct DecodedSweep {
-  std::vector<Point> points;
-  bool complete = false;
-  TimeSource time_source{};
-  std::int64_t start_utc_ns = 0;
-};
+std::vector<test::SweepCopy> decode(const AnyDecoder& decoder, std::span<const RecordedPacket> packets) {
+  test::DecoderBench bench(decoder, 150'000);
+  test::decode_all(bench, packets);
+  return bench.swept();
+}
 
-template <class AnyOrOne>
-std::vector<DecodedSweep> decode(AnyOrOne decoder, std::span<const RecordedPacket> packets) {
-  std::vector<Point> storage(300'000);
-  SweepPair sweeps(storage);
-  std::vector<DecodedSweep> all;
-  const auto keep = [&] {
-    const Sweep& sweep = sweeps.completed();
-    all.push_back({{sweep.points().begin(), sweep.points().end()},
-                   sweep.complete(),
-                   sweep.time_source(),
-                   sweep.start_utc_ns()});
-  };
-  for (const RecordedPacket& packet : packets) {
-    const DecodeResult result = decoder.decode(packet.view(), sweeps);
-    EXPECT_FALSE(is_rejected(result.status)) << to_string(result.status);
-    if (result.sweep_completed) keep();
-  }
-  if (decoder.flush(sweeps)) keep();
-  EXPECT_EQ(decoder.counters().lost_packets, 0U);
-  return all;
+std::vector<Point> points_of(std::span<const test::SweepCopy> sweeps) {
+  std::vector<Point> points;
+  for (const auto& sweep : sweeps) points.insert(points.end(), sweep.points.begin(), sweep.points.end());
+  return points;
 }
 
 struct ReferencePoint {
@@ -182,9 +165,6 @@ TEST(HeliosRealData, GivesNoPointBeforeTheUnitHasSaidItsAngles) {
 /// Of each laser's returns, in the order of the rings.
 using ByRing = std::vector<std::vector<Return>>;
 
-/// Horizontal range over azimuth, as one laser sees the room.
-using Profile = std::map<double, double>;
-
 struct LaserReturns {
   std::vector<Return> returns;
   double azimuth_offset_deg = 0.0;
@@ -207,12 +187,10 @@ double floor_m(std::vector<Return> returns) {
 TEST(HeliosRealData, TheFloorIsFlatOnlyIfTheUnitHas32Lasers) {
   LANDFIX_REAL_DATA(capture, "helios16p/capture.pcap");
   const auto packets = recorded(capture);
-  const auto as_32 = decode(robosense::Decoder(robosense::kHelios32, {}, {}), packets);
+  const auto as_32 = decode(AnyDecoder(robosense::Decoder(robosense::kHelios32, {}, {})), packets);
   const auto as_16 = decode(make_decoder(*find_sensor_model("helios16p"), {}), packets);
   ASSERT_EQ(as_32.size(), 6U);
-  std::vector<Point> points_32;
-  for (const DecodedSweep& sweep : as_32)
-    points_32.insert(points_32.end(), sweep.points.begin(), sweep.points.end());
+  const auto points_32 = points_of(as_32);
   const ByRing lasers = by_ring(points_32, 32);
   double lowest_m = 0.0;
   double highest_m = -10.0;
@@ -226,9 +204,7 @@ TEST(HeliosRealData, TheFloorIsFlatOnlyIfTheUnitHas32Lasers) {
   EXPECT_NEAR(lowest_m, -0.69, 0.02);
   // Read as 16 lasers, nothing looks so far down that it could see the floor beside the sensor, and yet
   // returns come back from there at the ranges of a floor: they are spread over all heights.
-  std::vector<Point> points_16;
-  for (const DecodedSweep& sweep : as_16)
-    points_16.insert(points_16.end(), sweep.points.begin(), sweep.points.end());
+  const auto points_16 = points_of(as_16);
   EXPECT_EQ(points_16.size(), points_32.size());
   const ByRing halves = by_ring(points_16, 16);
   double lowest_16_m = 0.0;
@@ -239,27 +215,6 @@ TEST(HeliosRealData, TheFloorIsFlatOnlyIfTheUnitHas32Lasers) {
   }
   std::cout << "the lowest eight of 16: " << lowest_16_m << " to " << highest_16_m << " m\n";
   EXPECT_GT(highest_16_m - lowest_16_m, 0.05);
-}
-
-/// Mean distance of what two neighbouring lasers see of the walls when `b` is turned by `shift_deg`; nothing
-/// where they have seen too little in common.
-std::optional<double> mismatch_m(const Profile& a, const Profile& b, double shift_deg) {
-  constexpr double kMostM = 0.2;
-  double sum_m = 0.0;
-  int count = 0;
-  for (const auto& [azimuth_deg, range_m] : b) {
-    const auto after = a.lower_bound(azimuth_deg + shift_deg);
-    if (after == a.begin() || after == a.end()) continue;
-    const auto before = std::prev(after);
-    const double gap_deg = after->first - before->first;
-    if (gap_deg > 0.5 || std::abs(after->second - before->second) > kMostM) continue;
-    const double part = (azimuth_deg + shift_deg - before->first) / gap_deg;
-    const double expected_m = before->second + part * (after->second - before->second);
-    sum_m += std::min(std::abs(expected_m - range_m), kMostM);
-    ++count;
-  }
-  if (count < 50) return std::nullopt;
-  return sum_m / count;
 }
 
 /// How far neighbouring lasers disagree about the azimuth of the same walls, when each laser's azimuth offset
@@ -278,17 +233,9 @@ double misalignment_rms_deg(std::span<const LaserReturns> lasers, double times) 
   double squares = 0.0;
   int pairs = 0;
   for (std::size_t i = 0; i + 1 < profiles.size(); ++i) {
-    double best_m = 1.0;
-    double best_deg = 0.0;
-    for (int step = -80; step <= 80; ++step) {
-      const double shift_deg = 0.2 * step;
-      const auto found_m = mismatch_m(profiles[i], profiles[i + 1], shift_deg);
-      if (!found_m || *found_m >= best_m) continue;
-      best_m = *found_m;
-      best_deg = shift_deg;
-    }
-    if (best_m == 1.0) continue;
-    squares += best_deg * best_deg;
+    const auto apart_deg = test::best_shift_deg(profiles[i], profiles[i + 1], 80, 0.2, 50);
+    if (!apart_deg) continue;
+    squares += *apart_deg * *apart_deg;
     ++pairs;
   }
   EXPECT_GE(pairs, 6);
@@ -299,7 +246,7 @@ TEST(HeliosRealData, NeighbouringLasersAgreeOnTheWallsWithTheirAzimuthOffsets) {
   LANDFIX_REAL_DATA(capture, "helios16p/capture.pcap");
   const auto packets = recorded(capture);
   const auto sweeps =
-      decode(robosense::Decoder(robosense::kHelios32, {}, {.optical_centre = false}), packets);
+      decode(AnyDecoder(robosense::Decoder(robosense::kHelios32, {}, {.optical_centre = false})), packets);
   robosense::DeviceInfo unit;
   ASSERT_EQ(read_device_info(robosense::kHelios32, packets[0].payload, unit), DecodeStatus::telemetry);
   ASSERT_TRUE(unit.angles);

@@ -41,35 +41,9 @@ ouster::Metadata parse(std::string_view text) {
   return ouster::parse_metadata(*find_sensor_model("os1-64"), std::as_bytes(std::span(text)), "unit.json");
 }
 
-struct Decoded {
-  std::vector<std::vector<Point>> sweeps;
-  std::vector<bool> complete;
-  std::vector<TimeSource> time_source;
-  std::vector<std::int64_t> start_utc_ns;
-  StreamCounters counters;
-};
-
-Decoded decode(std::span<const RecordedPacket> packets, const ouster::Metadata& metadata) {
-  const SensorModel& model = *find_sensor_model("os1-64");
-  AnyDecoder decoder = make_decoder(model, {}, metadata);
-  std::vector<Point> storage(2 * model.max_points_per_sweep());
-  SweepPair sweeps(storage);
-  Decoded decoded;
-  const auto keep = [&] {
-    const Sweep& sweep = sweeps.completed();
-    decoded.sweeps.emplace_back(sweep.points().begin(), sweep.points().end());
-    decoded.complete.push_back(sweep.complete());
-    decoded.time_source.push_back(sweep.time_source());
-    decoded.start_utc_ns.push_back(sweep.start_utc_ns());
-  };
-  for (const RecordedPacket& packet : packets) {
-    const DecodeResult result = decoder.decode(packet.view(), sweeps);
-    EXPECT_EQ(result.status, DecodeStatus::decoded) << to_string(result.status);
-    if (result.sweep_completed) keep();
-  }
-  if (decoder.flush(sweeps)) keep();
-  decoded.counters = decoder.counters();
-  return decoded;
+std::vector<test::SweepCopy> decode(std::span<const RecordedPacket> packets,
+                                    const ouster::Metadata& metadata) {
+  return test::decode_sweeps("os1-64", packets, {}, metadata);
 }
 
 template <class T>
@@ -133,8 +107,8 @@ TEST(Os1RealData, GivesWhatTheVendorsSoftwareGives) {
   ASSERT_EQ(packets.size(), 64U);
   EXPECT_EQ(field<std::uint64_t>(packets[0], 0), 278'211'490'950U);
   EXPECT_EQ(field<std::uint16_t>(packets[0], 10), 189U);
-  const Decoded decoded = decode(std::span(packets).first(1), parse(kFirmware20Unit));
-  ASSERT_EQ(decoded.sweeps.size(), 1U);
+  const auto sweeps = decode(std::span(packets).first(1), parse(kFirmware20Unit));
+  ASSERT_EQ(sweeps.size(), 1U);
   for (const Golden& golden : kGoldens) {
     const std::size_t column = golden.column * kColumnBytes;
     const std::size_t pixel = column + 16 + 12 * golden.row;
@@ -143,11 +117,11 @@ TEST(Os1RealData, GivesWhatTheVendorsSoftwareGives) {
     EXPECT_EQ(field<std::uint16_t>(packets[0], pixel + 8), golden.near_infrared);
     const double time_s = 1e-9 * static_cast<double>(field<std::uint64_t>(packets[0], column) -
                                                      field<std::uint64_t>(packets[0], 0));
-    const auto found = std::ranges::find_if(decoded.sweeps[0], [&](const Point& point) {
+    const auto found = std::ranges::find_if(sweeps[0].points, [&](const Point& point) {
       return point.ring == kRows - 1 - golden.row &&
              std::abs(static_cast<double>(point.time_s) - time_s) < 1e-8;
     });
-    ASSERT_NE(found, decoded.sweeps[0].end());
+    ASSERT_NE(found, sweeps[0].points.end());
     EXPECT_NEAR(found->x, golden.x, 6e-5);
     EXPECT_NEAR(found->y, golden.y, 6e-5);
     EXPECT_NEAR(found->z, golden.z, 6e-5);
@@ -164,9 +138,9 @@ TEST(Os1RealData, AgreesWithTheFormulasInEveryReturn) {
   for (const auto& [capture, metadata] :
        {std::pair{one_frame, parse(kFirmware20Unit)}, std::pair{three_frames, parse(text)}}) {
     const auto packets = test::read_packets(capture, 7502);
-    const Decoded decoded = decode(packets, metadata);
-    std::vector<Point> ours;
-    for (const auto& sweep : decoded.sweeps) ours.insert(ours.end(), sweep.begin(), sweep.end());
+    test::DecoderBench bench = test::bench_of("os1-64", {}, metadata);
+    test::decode_all(bench, packets);
+    const std::vector<Point> ours = bench.all_points();
     std::size_t at = 0;
     double most_m = 0.0;
     for (const RecordedPacket& packet : packets) {
@@ -200,30 +174,31 @@ TEST(Os1RealData, CutsAtTheSensorsFrames) {
   const auto packets = test::read_packets(capture, model.data_port);
   ASSERT_EQ(packets.size(), 100U);
   for (const RecordedPacket& packet : packets) EXPECT_TRUE(looks_like(model, packet.payload));
-  const Decoded decoded = decode(packets, std::get<ouster::Metadata>(calibration));
+  test::DecoderBench bench = test::bench_of("os1-64", {}, calibration);
+  test::decode_all(bench, packets);
+  EXPECT_EQ(bench.counters().restarts, 0U);
+  EXPECT_EQ(bench.counters().clock_steps, 0U);
+  const auto& sweeps = bench.swept();
+  ASSERT_EQ(sweeps.size(), 3U);
   // 14 packets of a frame that began before the recording, a whole one, 22 of one that goes on after it.
-  EXPECT_EQ(decoded.complete, (std::vector<bool>{false, true, false}));
-  EXPECT_EQ(decoded.counters.lost_packets, 0U);
-  EXPECT_EQ(decoded.counters.restarts, 0U);
-  EXPECT_EQ(decoded.counters.clock_steps, 0U);
-  ASSERT_EQ(decoded.sweeps.size(), 3U);
   const std::size_t first_packets[] = {0, 14, 78};
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(decoded.time_source[i], TimeSource::sensor);
-    EXPECT_EQ(static_cast<std::uint64_t>(decoded.start_utc_ns[i]),
+    EXPECT_EQ(sweeps[i].complete, i == 1) << i;
+    EXPECT_EQ(sweeps[i].time_source, TimeSource::sensor);
+    EXPECT_EQ(static_cast<std::uint64_t>(sweeps[i].start_utc_ns),
               field<std::uint64_t>(packets[first_packets[i]], 0));
   }
-  EXPECT_NEAR(static_cast<double>(decoded.sweeps[1].back().time_s), 0.1, 1e-3);
+  EXPECT_NEAR(static_cast<double>(sweeps[1].points.back().time_s), 0.1, 1e-3);
 }
 
 TEST(Os1RealData, CountsFromPowerUpAreAnchoredToTheReceiver) {
   LANDFIX_REAL_DATA(capture, "os1-64/legacy-fw20-one-frame.pcap");
   const auto packets = test::read_packets(capture, 7502);
-  const Decoded decoded = decode(packets, parse(kFirmware20Unit));
-  EXPECT_EQ(decoded.complete, std::vector<bool>{true});
-  EXPECT_EQ(decoded.time_source, std::vector<TimeSource>{TimeSource::receive});
-  ASSERT_EQ(decoded.start_utc_ns.size(), 1U);
-  EXPECT_NEAR(1e-9 * static_cast<double>(decoded.start_utc_ns[0] - packets[0].receive_utc_ns), 0.0, 2e-3);
+  const auto sweeps = decode(packets, parse(kFirmware20Unit));
+  ASSERT_EQ(sweeps.size(), 1U);
+  EXPECT_TRUE(sweeps[0].complete);
+  EXPECT_EQ(sweeps[0].time_source, TimeSource::receive);
+  EXPECT_NEAR(1e-9 * static_cast<double>(sweeps[0].start_utc_ns - packets[0].receive_utc_ns), 0.0, 2e-3);
 }
 
 /// Horizontal range over azimuth, as one row sees the room.
@@ -279,7 +254,7 @@ TEST(Os1RealData, NeighbouringRowsAgreeOnTheWallsByTheirAzimuths) {
     const auto with = [&](double factor) {
       ouster::Metadata metadata = recording.metadata;
       for (ouster::Row& row : metadata.rows) row.azimuth_deg *= factor;
-      return disagreement_percent(decode(packets, metadata).sweeps.at(recording.sweep));
+      return disagreement_percent(decode(packets, metadata).at(recording.sweep).points);
     };
     const double right_percent = with(1.0);
     const double without_percent = with(0.0);

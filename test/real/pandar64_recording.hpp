@@ -17,15 +17,11 @@
 namespace landfix::test::pandar64 {
 
 using drivers::Beam;
-using drivers::DecodeResult;
 using drivers::DecoderOptions;
-using drivers::DecodeStatus;
 using drivers::find_sensor_model;
 using drivers::kSlotBytes;
 using drivers::load_little_endian;
 using drivers::Point;
-using drivers::SensorModel;
-using drivers::SweepPair;
 using drivers::hesai::kPandar64;
 using drivers::hesai::PandarLayout;
 
@@ -107,25 +103,17 @@ struct Decoded {
 
 inline Decoded decode(const std::filesystem::path& capture, std::span<const Beam> beams,
                       const DecoderOptions& options, const PandarLayout& layout = kPandar64) {
-  const SensorModel& model = *find_sensor_model("pandar64");
-  drivers::hesai::PandarDecoder decoder(layout, beams, options);
-  std::vector<Point> storage(2 * model.max_points_per_sweep());
-  SweepPair sweeps(storage);
+  DecoderBench bench(drivers::AnyDecoder(drivers::hesai::PandarDecoder(layout, beams, options)),
+                     find_sensor_model("pandar64")->max_points_per_sweep());
   ChannelCutter cutter(beams);
   Decoded decoded;
-  const auto keep = [&] {
-    const auto points = sweeps.completed().points();
-    decoded.points.insert(decoded.points.end(), points.begin(), points.end());
-  };
-  std::size_t index = 0;
-  for (RecordedPacket& packet : test::read_packets(capture, 2368)) {
-    select_as_the_reference(packet, index++, cutter, decoded.kept);
-    const DecodeResult result = decoder.decode(packet.view(), sweeps);
-    EXPECT_EQ(result.status, DecodeStatus::decoded);
-    if (result.sweep_completed) keep();
+  auto packets = test::read_packets(capture, 2368);
+  EXPECT_EQ(packets.size(), 2400U);
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    select_as_the_reference(packets[i], i, cutter, decoded.kept);
   }
-  EXPECT_EQ(index, 2400U);
-  if (decoder.flush(sweeps)) keep();
+  decode_all(bench, packets);
+  decoded.points = bench.all_points();
   return decoded;
 }
 

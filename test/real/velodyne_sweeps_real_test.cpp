@@ -23,34 +23,21 @@ class VelodyneSweeps : public testing::TestWithParam<Recording> {};
 TEST_P(VelodyneSweeps, AreWholeAndOnTheRightClock) {
   const Recording& recording = GetParam();
   LANDFIX_REAL_DATA(capture, recording.capture);
-  const SensorModel& model = *find_sensor_model(recording.sensor);
-  AnyDecoder decoder = make_decoder(model, {});
-  std::vector<Point> storage(2 * model.max_points_per_sweep());
-  SweepPair sweeps(storage);
-  std::size_t count = 0;
-  std::int64_t last_start_ns = 0;
-  const auto check = [&] {
-    const Sweep& sweep = sweeps.completed();
-    EXPECT_EQ(sweep.complete(), count > 0 && count + 1 < recording.sweeps) << count;
-    EXPECT_EQ(sweep.time_source(), recording.time_source) << count;
-    EXPECT_EQ(sweep.overflowed(), 0U) << count;
-    if (count > 1) {
-      EXPECT_NEAR(static_cast<double>(sweep.start_utc_ns() - last_start_ns) * 1e-9, recording.turn_s, 2e-4);
-    }
-    last_start_ns = sweep.start_utc_ns();
-    ++count;
-  };
   const auto packets = test::read_packets(capture, 2368);
   EXPECT_EQ(packets.size(), recording.packets);
-  for (const auto& packet : packets) {
-    const DecodeResult result = decoder.decode(packet.view(), sweeps);
-    EXPECT_EQ(result.status, DecodeStatus::decoded);
-    if (result.sweep_completed) check();
+  test::DecoderBench bench = test::bench_of(recording.sensor, {});
+  test::decode_all(bench, packets);
+  EXPECT_EQ(bench.counters().clock_steps, 0U);
+  const auto& sweeps = bench.swept();
+  ASSERT_EQ(sweeps.size(), recording.sweeps);
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    EXPECT_EQ(sweeps[i].complete, i > 0 && i + 1 < recording.sweeps) << i;
+    EXPECT_EQ(sweeps[i].time_source, recording.time_source) << i;
+    EXPECT_EQ(sweeps[i].overflowed, 0U) << i;
+    if (i < 2) continue;
+    const std::int64_t since_ns = sweeps[i].start_utc_ns - sweeps[i - 1].start_utc_ns;
+    EXPECT_NEAR(static_cast<double>(since_ns) * 1e-9, recording.turn_s, 2e-4);
   }
-  if (decoder.flush(sweeps)) check();
-  EXPECT_EQ(count, recording.sweeps);
-  EXPECT_EQ(decoder.counters().lost_packets, 0U);
-  EXPECT_EQ(decoder.counters().clock_steps, 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -38,7 +38,7 @@ TEST(Vlp16RealData, AgreesWithTheVendorsViewerOnAMovingCar) {
   const auto sweeps = test::decode_sweeps("vlp16", packets, kAsTheReferences);
   const auto theirs = test::to_returns(test::read_viewer_csv(reference));
   ASSERT_GT(sweeps.size(), 1U);
-  const auto ours = test::to_returns(sweeps[1]);
+  const auto ours = test::to_returns(sweeps[1].points);
   ASSERT_EQ(ours.size(), theirs.size());
   const Differences most = test::compare(ours, theirs);
   test::print("vlp16", most);
@@ -107,8 +107,8 @@ TEST(Vlp16RealData, AgreesWithTheReferenceOnDualReturns) {
   for (RecordedPacket& packet : packets) select_as_the_reference(packet, kept);
   const auto sweeps = test::decode_sweeps("vlp16", packets, kAsTheReferences);
   ASSERT_GT(sweeps.size(), 3U);
-  const std::size_t first = sweeps[0].size() + sweeps[1].size() + sweeps[2].size();
-  const auto ours = test::to_returns(sweeps[3]);
+  const std::size_t first = sweeps[0].points.size() + sweeps[1].points.size() + sweeps[2].points.size();
+  const auto ours = test::to_returns(sweeps[3].points);
   const auto theirs = read_dual_reference(reference);
   ASSERT_EQ(ours.size(), theirs.size());
   const Differences most = test::compare(ours, theirs);

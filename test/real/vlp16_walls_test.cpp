@@ -42,9 +42,9 @@ double roughness_m(Rings rings) {
 
 /// The second whole sweep with the rotation times `factor`.
 double roughness_m(const std::vector<test::RecordedPacket>& packets, double factor) {
-  const auto turned = test::decode_sweeps("vlp16", packets, {}).at(2);
+  const auto turned = test::decode_sweeps("vlp16", packets, {}).at(2).points;
   const auto at_rest = test::to_returns(
-      test::decode_sweeps("vlp16", packets, DecoderOptions{.firing_time_azimuth = false}).at(2));
+      test::decode_sweeps("vlp16", packets, DecoderOptions{.firing_time_azimuth = false}).at(2).points);
   const auto returns = test::to_returns(turned);
   Rings rings;
   for (std::size_t i = 0; i < returns.size(); ++i) {

@@ -166,11 +166,11 @@ std::vector<test::Profile> profiles_with(const std::vector<RecordedPacket>& pack
   for (std::size_t i = 0; i < changed.size(); ++i) changed[i].azimuth_offset_deg = offsets_deg[i];
   std::vector<std::size_t> laser_of_ring(changed.size());
   for (std::size_t i = 0; i < changed.size(); ++i) laser_of_ring[changed[i].ring] = i;
-  const auto sweeps = test::decode_sweeps("vls128", packets, options, changed);
+  const auto points = test::decode_sweeps("vls128", packets, options, changed).at(2).points;
   std::vector<test::Profile> profiles(changed.size());
-  const auto returns = test::to_returns(sweeps.at(2));
+  const auto returns = test::to_returns(points);
   for (std::size_t i = 0; i < returns.size(); ++i) {
-    profiles[laser_of_ring[sweeps[2][i].ring]][returns[i].azimuth_deg] =
+    profiles[laser_of_ring[points[i].ring]][returns[i].azimuth_deg] =
         std::sqrt(returns[i].range_m * returns[i].range_m - returns[i].height_m * returns[i].height_m);
   }
   return profiles;

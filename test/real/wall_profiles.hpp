@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <span>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -39,10 +39,23 @@ inline std::vector<double> distances_m(const Profile& a, const Profile& b, doubl
   return distances;
 }
 
-inline double mean_distance_m(const Profile& a, const Profile& b, double shift_deg) {
-  const auto distances = distances_m(a, b, shift_deg);
-  const double sum_m = std::accumulate(distances.begin(), distances.end(), 0.0);
-  return distances.empty() ? 1.0 : sum_m / static_cast<double>(distances.size());
+/// By how much `b` is to be turned to agree best with `a`: up to `steps` times `step_deg` either way. Nothing
+/// where they never see `least_common` points of the same walls.
+inline std::optional<double> best_shift_deg(const Profile& a, const Profile& b, int steps, double step_deg,
+                                            std::size_t least_common) {
+  std::optional<double> best_deg;
+  double best_m = std::numeric_limits<double>::infinity();
+  for (int step = -steps; step <= steps; ++step) {
+    const double shift_deg = step * step_deg;
+    const auto distances = distances_m(a, b, shift_deg);
+    if (distances.size() < least_common) continue;
+    const double mean_m =
+        std::accumulate(distances.begin(), distances.end(), 0.0) / static_cast<double>(distances.size());
+    if (mean_m >= best_m) continue;
+    best_m = mean_m;
+    best_deg = shift_deg;
+  }
+  return best_deg;
 }
 
 /// Calls `use` with every two channels of nearly one height, at most `most_apart_deg` apart, that look to
@@ -67,13 +80,8 @@ inline double misalignment_rms_deg(const std::vector<Profile>& profiles, std::sp
   double squares = 0.0;
   int pairs = 0;
   for_each_pair(beams, most_apart_deg, [&](std::size_t a, std::size_t b) {
-    double best_deg = 0.0;
-    double best_m = 1.0;
-    for (double shift_deg = -0.4; shift_deg <= 0.4; shift_deg += 0.01) {
-      const double distance_m = mean_distance_m(profiles[a], profiles[b], shift_deg);
-      if (distance_m < best_m) std::tie(best_m, best_deg) = std::pair(distance_m, shift_deg);
-    }
-    squares += best_deg * best_deg;
+    const double apart_deg = best_shift_deg(profiles[a], profiles[b], 40, 0.01, 1).value_or(0.0);
+    squares += apart_deg * apart_deg;
     ++pairs;
   });
   return std::sqrt(squares / std::max(pairs, 1));

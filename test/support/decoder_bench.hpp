@@ -20,9 +20,10 @@ class DecoderBench {
   /// `capacity`: points of one sweep.
   explicit DecoderBench(std::string_view model, const drivers::DecoderOptions& options = {},
                         std::size_t capacity = 100'000, const drivers::Calibration& calibration = {})
-      : storage_(2 * capacity),
-        sweeps_(storage_),
-        decoder_(drivers::make_decoder(*drivers::find_sensor_model(model), options, calibration)) {}
+      : DecoderBench(drivers::make_decoder(*drivers::find_sensor_model(model), options, calibration),
+                     capacity) {}
+  DecoderBench(const drivers::AnyDecoder& decoder, std::size_t capacity)
+      : storage_(2 * capacity), sweeps_(storage_), decoder_(decoder) {}
 
   /// Remembers a sweep that the packet completed.
   drivers::DecodeResult decode(std::span<const std::byte> payload,
