@@ -388,17 +388,14 @@ TEST(Pandar40pPackets, MarkEveryBlock) {
 /// Packets lost between two that are one packet's duration apart, if their numbers say so.
 template <class Sent>
 std::uint64_t lost_between(const char* name, Sent first, Sent second, std::uint32_t apart_us) {
-  std::vector<Point> storage(4000);
-  SweepPair sweeps(storage);
-  AnyDecoder decoder = make_decoder(*find_sensor_model(name), {});
+  DecoderBench bench(name);
   first.set_azimuths(1000, 20, 2);  // in pairs, as dual return wants it
   second.set_azimuths(1200, 20, 2);
   second.set_microseconds(apart_us);
   for (const Sent& sent : {first, second}) {
-    const Packet packet{.payload = sent.bytes(), .receive_utc_ns = PandarPacket::kDateUtcNs};
-    EXPECT_EQ(decoder.decode(packet, sweeps).status, DecodeStatus::decoded);
+    EXPECT_EQ(bench.decode(sent.bytes(), PandarPacket::kDateUtcNs).status, DecodeStatus::decoded);
   }
-  return decoder.counters().lost_packets;
+  return bench.counters().lost_packets;
 }
 
 TEST(PandarPackets, AreCountedBySequenceOrElseByTime) {

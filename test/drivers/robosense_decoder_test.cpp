@@ -73,21 +73,18 @@ TEST(RobosenseDecoder, TakesAnglesThatChange) {
 }
 
 TEST(RobosenseDecoder, PrefersTheFileThatTheUserGives) {
-  const SensorModel& model = *find_sensor_model("rs32");
   std::vector<Beam> beams(32);
   for (std::size_t i = 0; i < 32; ++i) beams[i].elevation_deg = 16.0 - static_cast<double>(i);
-  AnyDecoder decoder = make_decoder(model, {.optical_centre = false}, beams);
-  std::vector<Point> storage(1000);
-  SweepPair sweeps(storage);
+  DecoderBench bench("rs32", {.optical_centre = false}, 1000, beams);
   RobosensePacket packet;
   packet.set_azimuths(1000, 20);
   packet.set_return(0, 3, 1000);
   const RobosenseDeviceInfo unit = test::robosense_unit("rs32");
-  EXPECT_EQ(decoder.decode({unit.bytes(), kReceivedNs}, sweeps).status, DecodeStatus::telemetry);
-  EXPECT_EQ(decoder.decode({packet.bytes(), kReceivedNs}, sweeps).status, DecodeStatus::decoded);
-  ASSERT_EQ(sweeps.current().points().size(), 1U);
-  EXPECT_NEAR(elevation_deg(sweeps.current().points()[0]), 13.0, 1e-4);
-  EXPECT_EQ(sweeps.current().points()[0].ring, 28);
+  EXPECT_EQ(bench.decode(unit.bytes(), kReceivedNs).status, DecodeStatus::telemetry);
+  EXPECT_EQ(bench.decode(packet.bytes(), kReceivedNs).status, DecodeStatus::decoded);
+  ASSERT_EQ(bench.points().size(), 1U);
+  EXPECT_NEAR(elevation_deg(bench.points()[0]), 13.0, 1e-4);
+  EXPECT_EQ(bench.points()[0].ring, 28);
 }
 
 TEST(RobosenseDecoder, PlacesAPointAsTheManualDoes) {
@@ -370,21 +367,17 @@ TEST(RobosenseDecoder, FindsTheTwoReturnsOfSixteenLasersInABlock) {
 TEST(RobosenseDecoder, TellsTheTwoReturnsOfSixteenLasersByThePaceAtEverySpeed) {
   // 1200 rpm: a block of two returns turns as far as one of two firings does at 600 rpm. The time between
   // packets tells them apart, although no device information has said how fast the rotor turns.
-  const SensorModel& model = *find_sensor_model("rs16");
-  AnyDecoder decoder = make_decoder(model, {}, std::vector<Beam>(16));
-  std::vector<Point> storage(2000);
-  SweepPair sweeps(storage);
+  DecoderBench bench("rs16", {}, 1000, std::vector<Beam>(16));
   for (unsigned i = 0; i < 4; ++i) {
     RobosensePacket packet("rs16");
     packet.set_azimuths(9000 + 480 * i, 40);
     packet.set_time_us(666 * static_cast<std::int64_t>(i));
     packet.set_return(1, 0, 1000, 1);
     packet.set_return(1, 16, 1000, 2);
-    const auto result = decoder.decode({packet.bytes(), kReceivedNs + 666'000 * std::int64_t{i}}, sweeps);
+    const auto result = bench.decode(packet.bytes(), kReceivedNs + 666'000 * std::int64_t{i});
     ASSERT_EQ(result.status, DecodeStatus::decoded);
   }
-  EXPECT_EQ(sweeps.current().points().size(), 5U)
-      << "the first packet cannot be told; equal returns after it";
+  EXPECT_EQ(bench.points().size(), 5U) << "the first packet cannot be told; equal returns after it";
 }
 
 TEST(RobosenseDecoder, ReadsTheHeliosUnitOfRanges) {

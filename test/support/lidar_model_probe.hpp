@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "drivers/calibration.hpp"
 #include "tools/simulator/lidar_model.hpp"
 
 namespace landfix::test {
@@ -25,6 +26,14 @@ inline constexpr std::int64_t kFullHour_utc_ns = 1'777'881'600'000'000'000;
 [[nodiscard]] inline std::vector<tools::simulator::Shot> shots_at(std::string_view model,
                                                                   std::int64_t utc_ns) {
   return shots_at(*tools::simulator::make_lidar_model(model), utc_ns);
+}
+
+/// Of the simulated unit, as its decoder takes it; nothing where the packets say it all.
+[[nodiscard]] inline drivers::Calibration calibration_of(const tools::simulator::LidarModel& lidar) {
+  const auto file = lidar.calibration();
+  if (!file) return {};
+  const drivers::SensorModel& model = *drivers::find_sensor_model(lidar.traits().name);
+  return drivers::parse_calibration(model, std::as_bytes(std::span(file->text)), file->name);
 }
 
 [[nodiscard]] inline unsigned byte_at(std::span<const std::byte> payload, std::size_t at) {

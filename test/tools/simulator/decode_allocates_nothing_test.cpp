@@ -7,7 +7,7 @@
 
 #include "drivers/make_decoder.hpp"
 #include "platform/heap_counter.hpp"
-#include "tools/simulator/lidar_model.hpp"
+#include "support/lidar_model_probe.hpp"
 
 namespace landfix::tools::simulator {
 namespace {
@@ -35,11 +35,7 @@ TEST_P(DecodeAllocatesNothing, FromTheFirstPacketToTheLast) {
   if (traits.telemetry_port != 0) telemetry = lidar->encode_telemetry({.utc_ns = kStart_utc_ns});
 
   const drivers::SensorModel& model = *drivers::find_sensor_model(GetParam());
-  drivers::Calibration calibration;
-  if (const auto file = lidar->calibration()) {
-    calibration = drivers::parse_calibration(model, std::as_bytes(std::span(file->text)), file->name);
-  }
-  drivers::AnyDecoder decoder = drivers::make_decoder(model, {}, calibration);
+  drivers::AnyDecoder decoder = drivers::make_decoder(model, {}, test::calibration_of(*lidar));
   std::vector<drivers::Point> storage(2 * model.max_points_per_sweep());
   drivers::SweepPair sweeps(storage);
   std::size_t points = 0;

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/make_decoder.hpp"
+#include "support/decoder_bench.hpp"
 #include "support/lidar_model_probe.hpp"
 #include "tools/simulator/hdl64_unit.hpp"
 
@@ -18,6 +18,7 @@ namespace landfix::tools::simulator {
 namespace {
 
 using test::byte_at;
+using test::calibration_of;
 using test::kFullHour_utc_ns;
 using test::little_at;
 using test::shots_at;
@@ -109,52 +110,30 @@ class Stream {
   std::vector<Echo> echoes_;
 };
 
-class Decoding {
- public:
-  Decoding(std::string_view sensor, const drivers::Calibration& calibration)
-      : model_(*drivers::find_sensor_model(sensor)),
-        decoder_(drivers::make_decoder(model_, {}, calibration)),
-        storage_(2 * model_.max_points_per_sweep()),
-        sweeps_(storage_) {}
-
-  drivers::DecodeStatus decode(std::span<const std::byte> payload, std::int64_t receive_utc_ns) {
-    const auto result = decoder_.decode({.payload = payload, .receive_utc_ns = receive_utc_ns}, sweeps_);
-    completed_ += result.sweep_completed ? 1 : 0;
-    return result.status;
-  }
-  drivers::SweepPair& sweeps() { return sweeps_; }
-  [[nodiscard]] int completed() const { return completed_; }
-
- private:
-  const drivers::SensorModel& model_;
-  drivers::AnyDecoder decoder_;
-  std::vector<drivers::Point> storage_;
-  drivers::SweepPair sweeps_;
-  int completed_ = 0;
-};
+test::DecoderBench bench_of(const char* sensor, const drivers::Calibration& calibration) {
+  return test::DecoderBench(sensor, {}, 200'000, calibration);
+}
 
 class InStream : public testing::TestWithParam<const char*> {};
 
 TEST_P(InStream, TheUnitsOwnBytesCalibrateItAsWellAsItsFile) {
   const Stream stream(GetParam());
-  const auto file = stream.lidar().calibration();
-  Decoding by_file(GetParam(), drivers::parse_calibration(*drivers::find_sensor_model(GetParam()),
-                                                          std::as_bytes(std::span(file->text)), file->name));
-  Decoding by_stream(GetParam(), {});
+  auto by_file = bench_of(GetParam(), calibration_of(stream.lidar()));
+  auto by_stream = bench_of(GetParam(), {});
   constexpr std::size_t kFirst = 1234;  // in the middle of a set
   constexpr std::size_t kCalibrated = 2 * kSetPackets - 1;
   for (std::size_t i = kFirst; i < kCalibrated + 800; ++i) {
     const auto payload = stream.payload(i);
     const std::int64_t receive_utc_ns = stream.utc_ns(i + 1) + 300'000;
-    ASSERT_EQ(by_file.decode(payload, receive_utc_ns), drivers::DecodeStatus::decoded) << i;
-    ASSERT_EQ(by_stream.decode(payload, receive_utc_ns),
+    ASSERT_EQ(by_file.decode(payload, receive_utc_ns).status, drivers::DecodeStatus::decoded) << i;
+    ASSERT_EQ(by_stream.decode(payload, receive_utc_ns).status,
               i < kCalibrated ? drivers::DecodeStatus::uncalibrated : drivers::DecodeStatus::decoded)
         << i;
   }
-  EXPECT_EQ(by_stream.completed(), 3);
-  const auto expected = by_file.sweeps().completed().points();
-  const auto points = by_stream.sweeps().completed().points();
-  ASSERT_TRUE(by_stream.sweeps().completed().complete());
+  ASSERT_EQ(by_stream.swept().size(), 3U);
+  const auto& expected = by_file.swept().back().points;
+  const auto& points = by_stream.swept().back().points;
+  ASSERT_TRUE(by_stream.swept().back().complete);
   ASSERT_EQ(points.size(), expected.size());
   ASSERT_GT(points.size(), 100'000U);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -169,11 +148,11 @@ TEST_P(InStream, TheUnitsOwnBytesCalibrateItAsWellAsItsFile) {
 
 TEST_P(InStream, ALostPacketDelaysTheCalibrationByASet) {
   const Stream stream(GetParam());
-  Decoding decoding(GetParam(), {});
+  auto bench = bench_of(GetParam(), {});
   std::size_t calibrated = 0;
   for (std::size_t i = 0; i < 3 * kSetPackets && calibrated == 0; ++i) {
     if (i == 2010) continue;
-    const auto status = decoding.decode(stream.payload(i), stream.utc_ns(i + 1));
+    const auto status = bench.decode(stream.payload(i), stream.utc_ns(i + 1)).status;
     if (status == drivers::DecodeStatus::decoded) calibrated = i;
   }
   EXPECT_EQ(calibrated, 2 * kSetPackets - 1);
@@ -181,21 +160,19 @@ TEST_P(InStream, ALostPacketDelaysTheCalibrationByASet) {
 
 TEST_P(InStream, SatellitesSayTheHourWhateverTheReceiversClockShows) {
   const Stream stream(GetParam());
-  const auto file = stream.lidar().calibration();
-  Decoding decoding(GetParam(), drivers::parse_calibration(*drivers::find_sensor_model(GetParam()),
-                                                           std::as_bytes(std::span(file->text)), file->name));
+  auto bench = bench_of(GetParam(), calibration_of(stream.lidar()));
   constexpr std::int64_t kWrongBy_ns = 123'456'789'000'000;  // 34 hours
   for (std::size_t i = 0; i < 1000; ++i) {
-    static_cast<void>(decoding.decode(stream.payload(i), stream.utc_ns(i + 1) - kWrongBy_ns));
+    static_cast<void>(bench.decode(stream.payload(i), stream.utc_ns(i + 1) - kWrongBy_ns));
   }
-  const drivers::Sweep& sweep = decoding.sweeps().completed();
-  EXPECT_TRUE(sweep.complete());
-  EXPECT_EQ(sweep.time_source(), drivers::TimeSource::sensor);
-  EXPECT_NEAR(static_cast<double>(sweep.start_utc_ns() - kFullHour_utc_ns),
-              1e8 * std::round(1e-8 * static_cast<double>(sweep.start_utc_ns() - kFullHour_utc_ns)),
-              60'000.0);
-  EXPECT_LT(sweep.start_utc_ns(), stream.utc_ns(1000));
-  EXPECT_GT(sweep.start_utc_ns(), stream.utc_ns(0));
+  ASSERT_FALSE(bench.swept().empty());
+  const auto& sweep = bench.swept().back();
+  EXPECT_TRUE(sweep.complete);
+  EXPECT_EQ(sweep.time_source, drivers::TimeSource::sensor);
+  EXPECT_NEAR(static_cast<double>(sweep.start_utc_ns - kFullHour_utc_ns),
+              1e8 * std::round(1e-8 * static_cast<double>(sweep.start_utc_ns - kFullHour_utc_ns)), 60'000.0);
+  EXPECT_LT(sweep.start_utc_ns, stream.utc_ns(1000));
+  EXPECT_GT(sweep.start_utc_ns, stream.utc_ns(0));
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, InStream, testing::Values("hdl64s2", "hdl64s3"),

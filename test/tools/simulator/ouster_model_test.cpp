@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "drivers/make_decoder.hpp"
+#include "support/decoder_bench.hpp"
 #include "support/lidar_model_probe.hpp"
 #include "tools/simulator/ouster_packets.hpp"
 #include "tools/simulator/ouster_units.hpp"
@@ -174,10 +174,9 @@ TEST_P(EveryProfile, ComesBackFromTheDecoder) {
   metadata["lidar_to_sensor_transform"] = {-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   const std::string text = metadata.dump();
   const auto& model = *drivers::find_sensor_model("os1-32");
-  auto decoder = drivers::make_decoder(
-      model, {}, drivers::parse_calibration(model, std::as_bytes(std::span(text)), "metadata.json"));
-  std::vector<drivers::Point> storage(400'000);
-  drivers::SweepPair sweeps(storage);
+  test::DecoderBench bench(
+      model.name, {}, 200'000,
+      drivers::parse_calibration(model, std::as_bytes(std::span(text)), "metadata.json"));
 
   const ouster::PacketFormat format{.profile = profile,
                                     .fusa_header = fusa || profile == ouster::Profile::low_rate_dual_fusa,
@@ -195,7 +194,6 @@ TEST_P(EveryProfile, ComesBackFromTheDecoder) {
   std::vector<Sent> sent;
   constexpr std::int64_t kColumn_ns = 48'828;
   const std::size_t packets = kColumns / ouster::kColumnsPerPacket;
-  bool completed = false;
   for (std::size_t p = 0; p < packets; ++p) {
     std::vector<Echo> first(16 * kRows);
     std::vector<Echo> second(16 * kRows);
@@ -223,13 +221,12 @@ TEST_P(EveryProfile, ComesBackFromTheDecoder) {
                                        .column_ns = kColumn_ns},
                                       first, dual ? std::span<const Echo>(second) : std::span<const Echo>());
     EXPECT_TRUE(drivers::looks_like(model, payload));
-    const auto result = decoder.decode({payload, kFullHour_utc_ns + after_ns + 1'000'000}, sweeps);
+    const auto result = bench.decode(payload, kFullHour_utc_ns + after_ns + 1'000'000);
     ASSERT_EQ(result.status, drivers::DecodeStatus::decoded) << to_string(result.status);
-    completed = result.sweep_completed;
   }
-  ASSERT_TRUE(completed);
-  EXPECT_TRUE(sweeps.completed().complete());
-  const auto points = sweeps.completed().points();
+  ASSERT_EQ(bench.swept().size(), 1U) << "by the last packet of the frame";
+  EXPECT_TRUE(bench.swept()[0].complete);
+  const auto& points = bench.swept()[0].points;
   ASSERT_EQ(points.size(), sent.size());
   for (std::size_t i = 0; i < sent.size(); ++i) {
     const drivers::Point& point = points[i];

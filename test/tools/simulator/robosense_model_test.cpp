@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/make_decoder.hpp"
+#include "support/decoder_bench.hpp"
 #include "support/lidar_model_probe.hpp"
 
 namespace landfix::tools::simulator {
@@ -124,32 +124,24 @@ TEST(RobosenseModel, SendsItsAnglesOnceASecond) {
 TEST(RobosenseModel, IsDecodedAlikeByItsAnglesInTheStreamAndByItsFile) {
   for (const char* const name : {"rs32", "rs16", "helios16p"}) {
     const auto lidar = make_lidar_model(name);
-    const drivers::SensorModel& model = *drivers::find_sensor_model(name);
-    const auto file = lidar->calibration();
-    ASSERT_TRUE(file);
-    const auto calibration =
-        drivers::parse_calibration(model, std::as_bytes(std::span(file->text)), file->name);
     const auto decode = [&](const drivers::Calibration& from_file) {
-      drivers::AnyDecoder decoder = drivers::make_decoder(model, {}, from_file);
-      std::vector<drivers::Point> storage(2 * model.max_points_per_sweep());
-      drivers::SweepPair sweeps(storage);
+      test::DecoderBench bench(name, {}, 20'000, from_file);
       const std::vector<Echo> echoes(lidar->traits().shots_per_packet, {.range_m = 12.34, .reflectivity = 1});
       for (int i = -2; i < 20; ++i) {
         const std::int64_t utc_ns = kFullHour_utc_ns + 1'000'000 + i * lidar->traits().packet_ns;
         const auto payload =
             i == -1 ? lidar->encode_telemetry({.utc_ns = utc_ns}) : lidar->encode(0, utc_ns, echoes);
-        const auto status = decoder.decode({payload, utc_ns + lidar->traits().packet_ns}, sweeps).status;
+        const auto status = bench.decode(payload, utc_ns + lidar->traits().packet_ns).status;
         const bool waits = i == -2 && std::holds_alternative<std::monostate>(from_file);
         EXPECT_EQ(status, waits     ? drivers::DecodeStatus::uncalibrated
                           : i == -1 ? drivers::DecodeStatus::telemetry
                                     : drivers::DecodeStatus::decoded)
             << name << i;
-        if (i == -1) static_cast<void>(decoder.flush(sweeps));
+        if (i == -1) static_cast<void>(bench.flush());
       }
-      const auto points = sweeps.current().points();
-      return std::vector<drivers::Point>(points.begin(), points.end());
+      return std::vector<drivers::Point>(bench.points().begin(), bench.points().end());
     };
-    const auto by_file = decode(calibration);
+    const auto by_file = decode(test::calibration_of(*lidar));
     const auto in_stream = decode({});
     ASSERT_EQ(by_file.size(), 20U * 384U) << name;
     ASSERT_EQ(in_stream.size(), by_file.size());

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/calibration.hpp"
-#include "drivers/make_decoder.hpp"
+#include "support/decoder_bench.hpp"
+#include "support/lidar_model_probe.hpp"
 #include "tools/simulator/lidar.hpp"
 
 namespace landfix::tools::simulator {
@@ -96,12 +96,6 @@ Mesh room() {
   return mesh;
 }
 
-drivers::Calibration calibration_of(const drivers::SensorModel& model, const LidarModel& lidar) {
-  const auto file = lidar.calibration();
-  if (!file) return {};
-  return drivers::parse_calibration(model, std::as_bytes(std::span(file->text)), file->name);
-}
-
 class RoundTrip : public testing::TestWithParam<std::string_view> {
  protected:
   void cast() {
@@ -132,35 +126,30 @@ class RoundTrip : public testing::TestWithParam<std::string_view> {
 
   void decode() {
     const drivers::SensorModel& model = *drivers::find_sensor_model(GetParam());
-    drivers::AnyDecoder decoder = drivers::make_decoder(model, {}, calibration_of(model, *lidar_));
-    std::vector<drivers::Point> storage(2 * model.max_points_per_sweep());
-    drivers::SweepPair sweeps(storage);
-    const auto keep = [&] {
-      const drivers::Sweep& sweep = sweeps.completed();
-      complete_.push_back(sweep.complete());
-      EXPECT_EQ(sweep.overflowed(), 0U);
-      for (const drivers::Point& point : sweep.points()) {
-        decoded_.push_back({.time_s = 1e-9 * static_cast<double>(sweep.start_utc_ns() - kStart_utc_ns) +
-                                      static_cast<double>(point.time_s),
-                            .position_m = Eigen::Vector3f(point.x, point.y, point.z).cast<double>(),
-                            .intensity = static_cast<unsigned>(point.intensity),
-                            .ring = point.ring});
-      }
-    };
+    test::DecoderBench bench(GetParam(), {}, model.max_points_per_sweep(), test::calibration_of(*lidar_));
     if (lidar_->traits().telemetry_port != 0) {
-      const auto payload = lidar_->encode_telemetry({.utc_ns = kStart_utc_ns});
-      const auto result = decoder.decode({payload, kStart_utc_ns}, sweeps);
+      const auto result = bench.decode(lidar_->encode_telemetry({.utc_ns = kStart_utc_ns}), kStart_utc_ns);
       EXPECT_EQ(result.status, drivers::DecodeStatus::telemetry) << to_string(result.status);
     }
     std::int64_t receive_utc_ns = kStart_utc_ns;
     for (const auto& payload : packets_) {
       receive_utc_ns += lidar_->traits().packet_ns;
-      const auto result = decoder.decode({payload, receive_utc_ns}, sweeps);
+      const auto result = bench.decode(payload, receive_utc_ns);
       ASSERT_EQ(result.status, drivers::DecodeStatus::decoded) << to_string(result.status);
-      if (result.sweep_completed) keep();
     }
-    if (decoder.flush(sweeps)) keep();
-    EXPECT_EQ(decoder.counters().lost_packets, 0U);
+    static_cast<void>(bench.flush());
+    EXPECT_EQ(bench.counters().lost_packets, 0U);
+    for (const auto& sweep : bench.swept()) {
+      complete_.push_back(sweep.complete);
+      EXPECT_EQ(sweep.overflowed, 0U);
+      for (const drivers::Point& point : sweep.points) {
+        decoded_.push_back({.time_s = 1e-9 * static_cast<double>(sweep.start_utc_ns - kStart_utc_ns) +
+                                      static_cast<double>(point.time_s),
+                            .position_m = Eigen::Vector3f(point.x, point.y, point.z).cast<double>(),
+                            .intensity = static_cast<unsigned>(point.intensity),
+                            .ring = point.ring});
+      }
+    }
   }
 
   std::unique_ptr<LidarModel> lidar_ = make_lidar_model(GetParam());
