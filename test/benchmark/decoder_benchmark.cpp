@@ -1,34 +1,16 @@
-// Return records a second, empty ones included, from packets in memory to points in a sweep.
+// Velodyne's and Hesai's sensors, but for the HDL-64E.
 #include <array>
 #include <cstdint>
-#include <vector>
 
-#include <benchmark/benchmark.h>
-
-#include "drivers/make_decoder.hpp"
+#include "benchmark/decode_recording.hpp"
 #include "support/synthetic_packets.hpp"
 
 namespace {
 
-using landfix::drivers::AnyDecoder;
-using landfix::drivers::Point;
-using landfix::drivers::SensorModel;
-using landfix::drivers::SweepPair;
+using landfix::test::range_raw;
+using landfix::test::Recording;
 
 constexpr std::int64_t kHourUtcNs = 1'700'002'800'000'000'000;
-
-struct Recording {
-  std::vector<std::vector<std::byte>> packets;
-  std::vector<std::int64_t> receive_utc_ns;
-  std::size_t records_a_packet = 0;
-};
-
-/// Half of the second returns are equal to the first, one record in ten is empty.
-unsigned range_raw(std::size_t slot, std::size_t firing, std::size_t second) {
-  if ((slot + firing) % 10 == 0) return 0;
-  const unsigned first = 1000 + static_cast<unsigned>(slot * 37 + firing * 11) % 4000;
-  return second == 1 && slot % 2 == 0 ? first / 2 : first;
-}
 
 /// What a Velodyne's packet looks like.
 struct Velodyne {
@@ -48,7 +30,7 @@ Recording velodyne(const Velodyne& sensor, std::size_t returns) {
   const std::size_t blocks_a_firing = sensor.banks * returns;
   const std::size_t firings = 12 / blocks_a_firing;
   const std::size_t used = firings * blocks_a_firing;
-  Recording recording{.packets = {}, .receive_utc_ns = {}, .records_a_packet = used * 32};
+  Recording recording{.records_a_packet = used * 32};
   const auto step_centideg = static_cast<unsigned>(sensor.firing_us * 0.36);
   for (unsigned i = 0; i * static_cast<double>(firings) * sensor.firing_us < 1e6; ++i) {
     landfix::test::VelodynePacket packet(sensor.product, returns == 2 ? 0x39 : 0x37);
@@ -61,11 +43,11 @@ Recording velodyne(const Velodyne& sensor, std::size_t returns) {
         packet.set_flag(block, block < used ? kBankFlags[block % blocks_a_firing / returns] : 0xFFFF);
       }
       for (std::size_t slot = 0; slot < 32; ++slot) {
-        packet.set_return(block, slot, range_raw(slot, i * firings + block / returns, block % returns), 10);
+        packet.set_return(block, slot, range_raw(slot, i * firings + block / returns, block % returns == 1),
+                          10);
       }
     }
-    recording.packets.emplace_back(packet.bytes().begin(), packet.bytes().end());
-    recording.receive_utc_ns.push_back(kHourUtcNs + static_cast<std::int64_t>(time_us * 1e3));
+    recording.add(packet.bytes(), kHourUtcNs + static_cast<std::int64_t>(time_us * 1e3));
   }
   return recording;
 }
@@ -75,8 +57,7 @@ template <class Make>
 Recording pandar(std::size_t returns, Make make) {
   const landfix::test::PandarPacket shape = make(0);
   const std::size_t firings = shape.blocks() / returns;
-  Recording recording{
-      .packets = {}, .receive_utc_ns = {}, .records_a_packet = shape.blocks() * shape.lasers()};
+  Recording recording{.records_a_packet = shape.blocks() * shape.lasers()};
   for (unsigned i = 0; i * firings < 18000; ++i) {
     landfix::test::PandarPacket packet = make(i);
     const double time_us = i * static_cast<double>(firings) * 55.56;
@@ -85,37 +66,19 @@ Recording pandar(std::size_t returns, Make make) {
     packet.set_microseconds(static_cast<std::uint32_t>(time_us) % 1'000'000);
     for (std::size_t block = 0; block < packet.blocks(); ++block) {
       for (std::size_t slot = 0; slot < packet.lasers(); ++slot) {
-        packet.set_return(block, slot, range_raw(slot, i * firings + block / returns, block % returns), 10);
+        packet.set_return(block, slot, range_raw(slot, i * firings + block / returns, block % returns == 1),
+                          10);
       }
     }
-    recording.packets.emplace_back(packet.bytes().begin(), packet.bytes().end());
-    recording.receive_utc_ns.push_back(landfix::test::PandarPacket::kDateUtcNs +
-                                       static_cast<std::int64_t>(time_us * 1e3));
+    recording.add(packet.bytes(),
+                  landfix::test::PandarPacket::kDateUtcNs + static_cast<std::int64_t>(time_us * 1e3));
   }
   return recording;
 }
 
-void decode(benchmark::State& state, const char* model_name, const Recording& recording) {
-  const SensorModel& model = *landfix::drivers::find_sensor_model(model_name);
-  const AnyDecoder made = landfix::drivers::make_decoder(model, {});
-  std::vector<Point> storage(2 * model.max_points_per_sweep());
-  for (auto _ : state) {
-    // One that has seen a recording would not take it a second time.
-    AnyDecoder decoder = made;
-    SweepPair sweeps(storage);
-    for (std::size_t i = 0; i < recording.packets.size(); ++i) {
-      const auto result = decoder.decode(
-          {.payload = recording.packets[i], .receive_utc_ns = recording.receive_utc_ns[i]}, sweeps);
-      if (result.status != landfix::drivers::DecodeStatus::decoded) {
-        state.SkipWithError("a packet was refused");
-        return;
-      }
-    }
-    benchmark::DoNotOptimize(sweeps.current().points().data());
-  }
-  const auto records = recording.packets.size() * recording.records_a_packet;
-  state.counters["records"] =
-      benchmark::Counter(static_cast<double>(records), benchmark::Counter::kIsIterationInvariantRate);
+void decode(benchmark::State& state, const char* name, const Recording& recording) {
+  const auto& model = *landfix::drivers::find_sensor_model(name);
+  landfix::test::decode_recording(state, model, landfix::drivers::make_decoder(model, {}), recording);
 }
 
 void decode_velodyne(benchmark::State& state, const Velodyne& sensor) {

@@ -1,32 +1,29 @@
-// Return records a second, empty ones included, from packets in memory to points in a sweep; and the
-// checksum alone, in bytes a second.
+// Ouster's sensors and profiles; and the checksum alone, in bytes a second.
 #include <cstdint>
 #include <vector>
 
-#include <benchmark/benchmark.h>
-
-#include "drivers/make_decoder.hpp"
+#include "benchmark/decode_recording.hpp"
 #include "drivers/ouster/crc64.hpp"
 #include "support/ouster_packets.hpp"
 
 namespace {
 
-using landfix::drivers::Point;
 using landfix::drivers::ouster::Profile;
+using landfix::test::Recording;
 
 constexpr std::int64_t kStartUtcNs = 1'700'002'800'000'000'000;
 constexpr std::int64_t kPacketNs = 1'562'500;
 
 /// Half of the second returns are equal to the first, one record in ten is empty, at no regular places.
-std::vector<std::vector<std::byte>> turns(const landfix::drivers::ouster::Metadata& metadata,
-                                          std::size_t turns, bool checked) {
+Recording record(const landfix::drivers::ouster::Metadata& metadata, std::size_t turns, bool checked) {
   const auto& pixel = landfix::drivers::ouster::pixel_of(metadata.profile);
-  std::vector<std::vector<std::byte>> packets;
+  Recording recording{.records_a_packet = 16 * metadata.row_count * pixel.returns()};
   std::uint32_t random = 1;
   for (std::size_t i = 0; i < 64 * turns; ++i) {
+    const std::int64_t utc_ns = kStartUtcNs + static_cast<std::int64_t>(i) * kPacketNs;
     landfix::test::OusterPacket packet(metadata);
     packet.set_frame(static_cast<std::uint32_t>(i / 64));
-    packet.set_place(i % 64, kStartUtcNs + static_cast<std::int64_t>(i) * kPacketNs);
+    packet.set_place(i % 64, utc_ns);
     for (std::size_t column = 0; column < 16; ++column) {
       for (std::size_t row = 0; row < metadata.row_count; ++row) {
         random = random * 1'664'525 + 1'013'904'223;
@@ -39,38 +36,16 @@ std::vector<std::vector<std::byte>> turns(const landfix::drivers::ouster::Metada
       }
     }
     if (checked) packet.set_crc();
-    packets.emplace_back(packet.bytes().begin(), packet.bytes().end());
+    recording.add(packet.bytes(), utc_ns);
   }
-  return packets;
+  return recording;
 }
 
-void decode(benchmark::State& state, const char* model_name, Profile profile, bool checked) {
-  const auto& model = *landfix::drivers::find_sensor_model(model_name);
+void decode(benchmark::State& state, const char* name, Profile profile, bool checked) {
+  const auto& model = *landfix::drivers::find_sensor_model(name);
   const auto metadata = landfix::test::ouster_metadata(profile, model.beam_count);
-  const auto packets = turns(metadata, 4, checked);
-  const auto returns = landfix::drivers::ouster::pixel_of(profile).returns();
-  auto decoder = landfix::drivers::make_decoder(model, {}, metadata);
-  std::vector<Point> storage(2 * model.max_points_per_sweep());
-  landfix::drivers::SweepPair sweeps(storage);
-  for (auto _ : state) {
-    // The packets come again: their decoder must not know them, at the price of its small tables.
-    state.PauseTiming();
-    decoder = landfix::drivers::make_decoder(model, {}, metadata);
-    state.ResumeTiming();
-    for (std::size_t i = 0; i < packets.size(); ++i) {
-      const auto result = decoder.decode(
-          {.payload = packets[i], .receive_utc_ns = kStartUtcNs + static_cast<std::int64_t>(i) * kPacketNs},
-          sweeps);
-      if (result.status != landfix::drivers::DecodeStatus::decoded) {
-        state.SkipWithError("a packet was refused");
-        return;
-      }
-    }
-    benchmark::DoNotOptimize(sweeps.current().points().data());
-  }
-  const auto records = packets.size() * 16 * metadata.row_count * returns;
-  state.counters["records"] =
-      benchmark::Counter(static_cast<double>(records), benchmark::Counter::kIsIterationInvariantRate);
+  landfix::test::decode_recording(state, model, landfix::drivers::make_decoder(model, {}, metadata),
+                                  record(metadata, 4, checked));
 }
 
 BENCHMARK_CAPTURE(decode, os1_16_legacy, "os1-16", Profile::legacy, false);
