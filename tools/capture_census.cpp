@@ -1,8 +1,10 @@
 #include "tools/capture_census.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace landfix::tools {
 namespace {
@@ -39,14 +41,12 @@ std::string CaptureCensus::to_string() const {
   if (counts_.empty()) return "no UDP packet";
   std::vector<std::pair<PortAndSize, std::uint64_t>> sorted(counts_.begin(), counts_.end());
   std::ranges::stable_sort(sorted, std::greater(), [](const auto& entry) { return entry.second; });
-  std::string text;
-  for (std::size_t i = 0; i < std::min(sorted.size(), kListed); ++i) {
-    const auto& [key, count] = sorted[i];
-    text += fmt::format("{}{} UDP packets of {} bytes to port {}", i == 0 ? "" : ", ", count, key.second,
-                        key.first);
+  std::vector<std::string> kinds;
+  for (const auto& [key, count] : std::span(sorted).first(std::min(sorted.size(), kListed))) {
+    kinds.push_back(fmt::format("{} UDP packets of {} bytes to port {}", count, key.second, key.first));
   }
-  if (sorted.size() > kListed) text += fmt::format(", and {} other kinds", sorted.size() - kListed);
-  return text;
+  if (sorted.size() > kListed) kinds.push_back(fmt::format("and {} other kinds", sorted.size() - kListed));
+  return fmt::format("{}", fmt::join(kinds, ", "));
 }
 
 }  // namespace landfix::tools

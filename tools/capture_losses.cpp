@@ -1,29 +1,23 @@
 #include "tools/capture_losses.hpp"
 
-#include <array>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace landfix::tools {
 
 std::string describe_losses(const platform::CaptureCounters& counters) {
-  struct Loss {
-    std::uint64_t count;
-    std::string_view what;
+  std::vector<std::string> losses;
+  const auto list = [&losses](std::uint64_t count, std::string_view what) {
+    if (count != 0) losses.push_back(fmt::format("{} {}", count, what));
   };
-  const std::array losses{
-      Loss{counters.malformed, "malformed frames"},
-      Loss{counters.cut_short, "frames cut short by the capture's snapshot length"},
-      Loss{counters.fragments_dropped, "fragments of incomplete datagrams"},
-  };
-  std::string text;
-  for (const Loss& loss : losses) {
-    if (loss.count == 0) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", loss.count, loss.what);
-  }
-  return text;
+  list(counters.malformed, "malformed frames");
+  list(counters.cut_short, "frames cut short by the capture's snapshot length");
+  list(counters.fragments_dropped, "fragments of incomplete datagrams");
+  return fmt::format("{}", fmt::join(losses, ", "));
 }
 
 void warn_of_losses(const std::string& pcap, const platform::CaptureCounters& counters) {

@@ -1,6 +1,7 @@
 #include "tools/decode_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace landfix::tools {
@@ -16,11 +17,11 @@ std::vector<std::pair<std::string_view, std::uint64_t>> rejections(const drivers
 }
 
 std::string reasons(const DecodeSummary& summary) {
-  std::string text;
+  std::vector<std::string> counted;
   for (const auto& [reason, count] : rejections(summary.packets)) {
-    text += fmt::format("{}{} x {}", text.empty() ? "" : ", ", count, reason);
+    counted.push_back(fmt::format("{} x {}", count, reason));
   }
-  return text;
+  return fmt::format("{}", fmt::join(counted, ", "));
 }
 
 namespace {
