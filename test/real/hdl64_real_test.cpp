@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "drivers/velodyne/hdl64_calibration_file.hpp"
+#include "drivers/velodyne/hdl64_wire.hpp"
 #include "real/cloud_comparison.hpp"
 #include "support/test_data.hpp"
 
@@ -75,6 +76,15 @@ TEST(Hdl64RealData, ReproducesTheVendorsViewer) {
     EXPECT_GE(result.median_m, a_case.least_median_m) << a_case.name;
     EXPECT_LT(result.median_m, a_case.median_m) << a_case.name;
     EXPECT_LT(result.most_m, a_case.most_m) << a_case.name;
+  }
+}
+
+TEST(Hdl64RealData, TheEncoderHas4000Steps) {
+  LANDFIX_REAL_DATA(capture, "hdl64e/s1-at-wall.pcap");
+  for (const auto& packet : test::read_packets(capture, 2368)) {
+    for (std::size_t block = 0; block < velodyne::kBlocks; ++block) {
+      ASSERT_EQ(velodyne::hdl64_azimuth(packet.payload, block) % 9, 0);
+    }
   }
 }
 

@@ -20,6 +20,10 @@ constexpr double kRangeUnit_m = 0.002;
 constexpr std::int64_t kFiring_ns = 48'000;
 constexpr std::int64_t kS1Block_ns = 32'000;
 constexpr std::int64_t kS1Laser_ns = 1'000;
+/// All azimuths of a recorded S1 are multiples of this (test/real/hdl64_real_test.cpp): its encoder has 4000
+/// steps a turn. No document says where in a step it counts; a unit's rotational corrections are measured by
+/// its own encoder, so that they hold for the middle of the step.
+constexpr double kS1Step_deg = 0.09;
 
 constexpr LidarTraits traits_of(std::string_view name, std::int64_t packet_ns) noexcept {
   return {.name = name,
@@ -124,11 +128,8 @@ class Hdl64Model final : public LidarModel {
                                               std::span<const Echo> echoes) const override {
     velodyne::DataPacket data;
     for (std::size_t block = 0; block < velodyne::kBlocks; ++block) {
-      std::uint16_t azimuth_centideg = rotor_angle_centideg(utc_ns + block_ns(block));
-      // The S1's encoder has 4000 steps a turn.
-      if (variant_ == Hdl64Variant::s1)
-        azimuth_centideg = static_cast<std::uint16_t>(azimuth_centideg / 9 * 9);
-      data.put_block(block, is_upper(block) ? velodyne::kUpperBank : velodyne::kLowerBank, azimuth_centideg);
+      data.put_block(block, is_upper(block) ? velodyne::kUpperBank : velodyne::kLowerBank,
+                     azimuth_centideg(utc_ns + block_ns(block)));
       for (std::size_t slot = 0; slot < kLasersPerBlock; ++slot) {
         Echo echo = echoes[block * kLasersPerBlock + slot];
         if (echo.range_m != 0.0) echo.range_m -= 1e-3 * unit_[laser_of(block, slot)].range_mm;
@@ -145,6 +146,10 @@ class Hdl64Model final : public LidarModel {
   }
 
  private:
+  [[nodiscard]] std::uint16_t azimuth_centideg(std::int64_t utc_ns) const noexcept {
+    if (variant_ != Hdl64Variant::s1) return rotor_angle_centideg(utc_ns);
+    return static_cast<std::uint16_t>(std::lround(rotor_angle_deg(utc_ns) / kS1Step_deg) % 4000 * 9);
+  }
   [[nodiscard]] bool is_upper(std::size_t block) const noexcept {
     return variant_ == Hdl64Variant::s1 ? block % 4 != 0 : block % 2 == 0;
   }

@@ -29,8 +29,8 @@ struct Resolution {
 constexpr Resolution kResolutions[] = {
     {"hdl64s2", 0.002, 0.0075, 1e-6},
     {"hdl64s3", 0.002, 0.0075, 1e-6},
-    // One step of its encoder is 0.09 deg, and shows the azimuth of up to a step before. It has no clock.
-    {"hdl64s1", 0.002, 0.095, 1e-6},
+    // One step of its encoder is 0.09 deg. It has no clock.
+    {"hdl64s1", 0.002, 0.05, 1e-6},
     // The first packets are timed by the manual's slot, until the unit's is measured.
     {"vls128ap", 0.004, 0.0075, 7e-6},
     {"vls128", 0.004, 0.0075, 7e-6},
