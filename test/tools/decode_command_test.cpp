@@ -164,6 +164,12 @@ TEST_F(DecodeCommand, ListsTheCandidatesWhereThereAreSeveral) {
   EXPECT_THAT(error_, HasSubstr("could be vlp16, pandar64; choose with --sensor"));
 }
 
+TEST_F(DecodeCommand, ListsTheModelsWhoseDataPacketsAreAlike) {
+  record_rs32();
+  EXPECT_EQ(decode(), 2);
+  EXPECT_THAT(error_, HasSubstr("could be rs32, rs16; choose with --sensor"));
+}
+
 TEST_F(DecodeCommand, LosesNoPacketOfASensorThatSaysLaterWhereItsLasersPoint) {
   record_rs32();
   ASSERT_EQ(decode({"--json", "--sensor", "rs32"}), 0) << error_;
