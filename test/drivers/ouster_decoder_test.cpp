@@ -7,6 +7,7 @@
 
 #include "support/decoder_bench.hpp"
 #include "support/ouster_packets.hpp"
+#include "support/store.hpp"
 
 namespace landfix::drivers {
 namespace {
@@ -65,6 +66,58 @@ TEST(OusterDecoder, PlacesABeamByTheVendorsFormula) {
   EXPECT_NEAR(point.z, 1e-3 * (m[8] * lidar.x + m[9] * lidar.y + m[10] * lidar.z + m[11]), 5e-6);
   EXPECT_EQ(point.intensity, 67.0F);
   EXPECT_EQ(point.ring, 63 - 5);
+}
+
+TEST(OusterDecoder, GivesWhatTheVendorsSoftwareGivesForADualReturn) {
+  // Two pixels that an OS1-64 with firmware 2.5.2 sent, and where the vendor's software placed them.
+  struct Golden {
+    std::size_t column, row;
+    double altitude_deg, azimuth_deg;
+    unsigned range_mm, second_range_mm, reflectivity;
+    double x, y, z;
+  };
+  constexpr Golden kGoldens[] = {{511, 31, 10.93, -4.26, 442, 2604, 126, 0.4329, 0.0337, 0.1170},
+                                 {496, 63, -0.17, -4.22, 1473, 0, 94, 1.4515, 0.2507, 0.0319}};
+  for (const Golden& golden : kGoldens) {
+    Metadata metadata = ouster_metadata(Profile::dual);
+    metadata.rows[golden.row].altitude_deg = golden.altitude_deg;
+    metadata.rows[golden.row].azimuth_deg = golden.azimuth_deg;
+    OusterPacket packet = sound_packet(metadata, golden.column / 16);
+    packet.set_return(golden.column % 16, golden.row, golden.range_mm, golden.reflectivity);
+    packet.set_return(golden.column % 16, golden.row, golden.second_range_mm, 1, 1);
+    auto bench = bench_of(metadata);
+    ASSERT_EQ(bench.decode(packet.bytes()).status, DecodeStatus::decoded);
+    ASSERT_EQ(bench.points().size(), golden.second_range_mm == 0 ? 1U : 2U);
+    const Point& point = bench.points()[0];
+    EXPECT_NEAR(point.x, golden.x, 6e-5);
+    EXPECT_NEAR(point.y, golden.y, 6e-5);
+    EXPECT_NEAR(point.z, golden.z, 6e-5);
+    EXPECT_EQ(point.intensity, static_cast<float>(golden.reflectivity));
+  }
+}
+
+TEST(OusterHeader, IsReadInBothForms) {
+  // Of recorded packets; every byte between the fields is set.
+  std::vector<std::byte> standard(32, std::byte{0xFF});
+  test::store(standard.data(), 1, 2);
+  test::store(standard.data() + 2, 1795, 2);
+  test::store(standard.data() + 4, 7'109'750, 3);
+  test::store(standard.data() + 7, 122'201'000'998, 5);
+  auto header = ouster::read_header(standard.data(), HeaderType::standard);
+  EXPECT_EQ(header.type, 1U);
+  EXPECT_EQ(header.frame_id, 1795U);
+  EXPECT_EQ(header.init_id, 7'109'750U);
+  EXPECT_EQ(header.serial_number, 122'201'000'998U);
+  std::vector<std::byte> fusa(32, std::byte{0xFF});
+  test::store(fusa.data(), 1, 1);
+  test::store(fusa.data() + 1, 390'076, 3);
+  test::store(fusa.data() + 4, 229, 4);
+  test::store(fusa.data() + 11, 122'246'000'293, 5);
+  header = ouster::read_header(fusa.data(), HeaderType::fusa);
+  EXPECT_EQ(header.type, 1U);
+  EXPECT_EQ(header.frame_id, 229U);
+  EXPECT_EQ(header.init_id, 390'076U);
+  EXPECT_EQ(header.serial_number, 122'246'000'293U);
 }
 
 TEST(OusterDecoder, TurnsClockwiseFromTheConnectorAtTheBack) {
