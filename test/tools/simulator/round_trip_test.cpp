@@ -194,6 +194,12 @@ TEST_P(RoundTrip, ReproducesWhereTheShotsHit) {
             << " mm, across " << most_across_deg << " deg, time " << 1e6 * most_late_s << " us\n";
 }
 
+TEST(RoundTripGate, IsForEverySensorOfTheCatalogue) {
+  std::vector<std::string_view> catalogue;
+  for (const drivers::SensorModel& model : drivers::sensor_models()) catalogue.push_back(model.name);
+  EXPECT_EQ(lidar_model_names(), catalogue);
+}
+
 INSTANTIATE_TEST_SUITE_P(EverySensor, RoundTrip, testing::ValuesIn(lidar_model_names()),
                          [](const auto& sensor) {
                            std::string name(sensor.param);
