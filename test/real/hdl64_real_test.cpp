@@ -33,8 +33,9 @@ struct Apart {
 Apart apart(std::span<const Point> ours, std::span<const Point> theirs) {
   std::vector<double> distances_m;
   for (std::size_t i = 0; i < std::min(ours.size(), theirs.size()); ++i) {
-    distances_m.push_back(
-        std::hypot(ours[i].x - theirs[i].x, ours[i].y - theirs[i].y, ours[i].z - theirs[i].z));
+    const float distance_m =
+        std::hypot(ours[i].x - theirs[i].x, ours[i].y - theirs[i].y, ours[i].z - theirs[i].z);
+    distances_m.push_back(static_cast<double>(distance_m));
   }
   std::ranges::sort(distances_m);
   return {distances_m.at(distances_m.size() / 2), distances_m.back()};

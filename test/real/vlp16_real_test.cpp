@@ -15,7 +15,6 @@ namespace {
 using test::Differences;
 using test::RecordedPacket;
 using test::Return;
-using velodyne::WireBlock;
 using velodyne::WirePacket;
 
 /// The references leave the vertical offsets out.
