@@ -19,57 +19,76 @@ using Floats = hn::CappedTag<float, 8>;
 using Words = hn::RebindToUnsigned<Floats>;
 using W = hn::Vec<Words>;
 
+/// Added to a whole number below 2^23, it leaves that number in the lowest bits.
+constexpr std::uint32_t kMagicBits = 0x4B000000;
+constexpr float kMagic = 1 << 23;
+
+/// Coordinates along one axis.
+struct Split {
+  W index;  ///< of the cell, and kMagicBits
+  W place;  ///< in it
+};
+
+HWY_ATTR Split split(hn::Vec<Floats> position_m, float inverse_leaf_1pm) {
+  const Floats d;
+  const Words dw;
+  const auto cells = hn::Mul(position_m, hn::Set(d, inverse_leaf_1pm));
+  const auto lower = hn::Floor(cells);
+  const auto index = hn::Add(lower, hn::Set(d, kMagic + kIndexBias));
+  // Fused or not, it is the same: the product is exact.
+  const auto place = hn::MulAdd(hn::Sub(cells, lower), hn::Set(d, 1 << kPlaceBits), hn::Set(d, kMagic));
+  return {hn::BitCast(dw, index), hn::Xor(hn::BitCast(dw, place), hn::Set(dw, kMagicBits))};
+}
+
 /// The keys of blocks, as they lie in memory on a little-endian machine: the low half first.
 HWY_ATTR void store_keys(W x, W y, W z, std::uint64_t* keys) {
-  static_assert(kBlockBits == 17 && kPlaceBits == 14, "as the shifts have it");
+  static_assert(kBlockBits == 17, "as the shifts have it");
   const Words d;
-  const W high = hn::Or(hn::And(x, hn::Set(d, 0xFFFF8000U)), hn::ShiftRight<17>(y));
-  const W low = hn::Or(hn::And(hn::ShiftLeft<15>(y), hn::Set(d, 0xC0000000U)),
-                       hn::And(hn::ShiftRight<2>(z), hn::Set(d, 0x3FFFE000U)));
+  const W high = hn::Or(hn::ShiftLeft<15>(x), hn::And(hn::ShiftRight<2>(y), hn::Set(d, 0x7FFFU)));
+  const W low = hn::Or(hn::ShiftLeft<30>(y), hn::And(hn::ShiftLeft<13>(z), hn::Set(d, 0x3FFFE000U)));
   hn::StoreInterleaved2(low, high, d, reinterpret_cast<std::uint32_t*>(keys));
 }
 
 /// Blocks of a row along x lie side by side, rows anywhere.
 HWY_ATTR W hash_of_block(W x, W y, W z) {
   const Words d;
-  const W row = hn::Add(hn::Mul(hn::ShiftRight<15>(y), hn::Set(d, 0x85EBCA77U)),
-                        hn::Mul(hn::ShiftRight<15>(z), hn::Set(d, 0xC2B2AE3DU)));
-  return hn::Add(hn::ShiftRight<15>(x), row);
+  const W row = hn::Add(hn::Mul(y, hn::Set(d, 0x85EBCA77U)), hn::Mul(z, hn::Set(d, 0xC2B2AE3DU)));
+  return hn::Add(x, row);
 }
 
 HWY_ATTR W cell_in_block(W x, W y, W z) {
-  const W odd = hn::Set(Words(), 1U << 14);
-  return hn::Or(hn::ShiftRight<12>(hn::And(x, odd)),
-                hn::Or(hn::ShiftRight<13>(hn::And(y, odd)), hn::ShiftRight<14>(hn::And(z, odd))));
+  const W odd = hn::Set(Words(), 1U);
+  return hn::Or(hn::ShiftLeft<2>(hn::And(x, odd)),
+                hn::Or(hn::ShiftLeft<1>(hn::And(y, odd)), hn::And(z, odd)));
 }
 
-HWY_ATTR bool find_cells_simd(const float* points_m, float inverse_leaf_1pm, CellBatch& batch) {
+HWY_ATTR bool find_cells_simd(const float* points_m, float inverse_leaf_1pm, std::uint32_t slot_mask,
+                              CellBatch& batch) {
   const Floats d;
   const Words dw;
-  constexpr float kOneCell = 1 << kPlaceBits;
-  const auto scale = hn::Set(d, inverse_leaf_1pm * kOneCell);
-  const auto limit = hn::Set(d, kMostCells * kOneCell);
-  auto all_inside = hn::Eq(limit, limit);
-  const auto to_word = [&](hn::Vec<Floats> position_m) HWY_ATTR {
-    const auto scaled = hn::Mul(position_m, scale);
-    all_inside = hn::And(all_inside, hn::Lt(hn::Abs(scaled), limit));
-    // Turning the sign bit adds the bias.
-    return hn::Xor(hn::BitCast(dw, hn::NearestInt(scaled)), hn::Set(dw, 0x80000000U));
-  };
+  const W mask = hn::Set(dw, slot_mask);
+  W strange = hn::Zero(dw);  // bits that no index has
   for (std::size_t n = 0; n < kCellBatch; n += hn::Lanes(d)) {
     hn::Vec<Floats> x_m;
     hn::Vec<Floats> y_m;
     hn::Vec<Floats> z_m;
     hn::LoadInterleaved3(d, points_m + 3 * n, x_m, y_m, z_m);
-    const W x = to_word(x_m);
-    const W y = to_word(y_m);
-    const W z = to_word(z_m);
-    hn::StoreInterleaved4(x, y, z, hn::Set(dw, 1U), dw, batch.point[n].data());
-    store_keys(x, y, z, batch.block.data() + n);
-    hn::Store(hash_of_block(x, y, z), dw, batch.hash.data() + n);
-    hn::Store(cell_in_block(x, y, z), dw, batch.cell.data() + n);
+    const Split x = split(x_m, inverse_leaf_1pm);
+    const Split y = split(y_m, inverse_leaf_1pm);
+    const Split z = split(z_m, inverse_leaf_1pm);
+    for (const W index : {x.index, y.index, z.index}) {
+      strange = hn::Or(strange, hn::Xor(index, hn::Set(dw, kMagicBits)));
+    }
+    const W block_x = hn::ShiftRight<1>(x.index);
+    const W block_y = hn::ShiftRight<1>(y.index);
+    const W block_z = hn::ShiftRight<1>(z.index);
+    store_keys(block_x, block_y, block_z, batch.key.data() + n);
+    hn::Store(hn::And(hash_of_block(block_x, block_y, block_z), mask), dw, batch.slot.data() + n);
+    hn::Store(cell_in_block(x.index, y.index, z.index), dw, batch.cell.data() + n);
+    hn::StoreInterleaved4(x.place, y.place, z.place, hn::Set(dw, 1U), dw,
+                          reinterpret_cast<std::uint32_t*>(batch.point[n].data()));
   }
-  return hn::AllTrue(d, all_inside);
+  return hn::AllTrue(dw, hn::Lt(strange, hn::Set(dw, 2U * kIndexBias)));
 }
 
 }  // namespace HWY_NAMESPACE
@@ -83,8 +102,8 @@ namespace landfix::ndt {
 HWY_EXPORT(find_cells_simd);
 
 bool find_cells(std::span<const Eigen::Vector3f, kCellBatch> points_m, float inverse_leaf_1pm,
-                CellBatch& batch) noexcept {
-  return HWY_DYNAMIC_DISPATCH(find_cells_simd)(points_m.data()->data(), inverse_leaf_1pm, batch);
+                std::uint32_t slot_mask, CellBatch& batch) noexcept {
+  return HWY_DYNAMIC_DISPATCH(find_cells_simd)(points_m.data()->data(), inverse_leaf_1pm, slot_mask, batch);
 }
 
 }  // namespace landfix::ndt

@@ -15,10 +15,9 @@ namespace landfix::ndt {
 using CellMoments = std::array<std::uint64_t, 6>;
 
 inline void add_point(CellMoments& moments, const CellSum& point) noexcept {
-  constexpr std::uint64_t kPlaceMask = (1U << kPlaceBits) - 1;
-  const std::uint64_t x = point[0] & kPlaceMask;
-  const std::uint64_t y = point[1] & kPlaceMask;
-  const std::uint64_t z = point[2] & kPlaceMask;
+  const auto x = static_cast<std::uint64_t>(point[0]);
+  const auto y = static_cast<std::uint64_t>(point[1]);
+  const auto z = static_cast<std::uint64_t>(point[2]);
   const CellMoments products{x * x, x * y, x * z, y * y, y * z, z * z};
   for (std::size_t i = 0; i < products.size(); ++i) moments[i] += products[i];
 }

@@ -14,6 +14,11 @@ constexpr std::uint32_t kRingStep = 0x9E3779B1U;
 /// One less than the key has room for, so that no key is that of kNoRoom.
 constexpr std::uint32_t kMostRings = (1U << (kSpareBits - 1)) - 1;
 
+/// So many points are found their blocks at once and then added, from all over the batch: neighbours in it
+/// often share a cell, and a sum is slow to read just after it is written.
+constexpr std::size_t kTogether = 8;
+constexpr std::size_t kStride = kCellBatch / kTogether;
+
 /// Blocks are read in another order than written: each is fetched while so many before it are read.
 constexpr std::size_t kBlocksAhead = 6;
 
@@ -24,17 +29,12 @@ struct Centroid {
 };
 
 [[nodiscard]] Centroid centroid_of(std::uint64_t key, std::uint32_t cell, const CellSum& sum) noexcept {
-  const auto along = [&](int axis) { return 2 * block_index(key, axis) + (cell >> (2 - axis) & 1U); };
-  const std::array<std::uint32_t, 3> lower{along(0), along(1), along(2)};
-  const std::uint32_t points = sum[3];
-  // What the index adds to each point's coordinate taken off again; below 2^31, as kMostPointsOfCell sees to.
-  const auto places = [&](std::size_t axis) {
-    return static_cast<std::int32_t>(sum[axis] - points * (lower[axis] << kPlaceBits));
+  const auto along = [&](int axis) {
+    return static_cast<std::int32_t>(2 * block_index(key, axis) + (cell >> (2 - axis) & 1U)) - kIndexBias;
   };
-  const auto unbiased = [&](std::size_t axis) { return static_cast<std::int32_t>(lower[axis]) - kIndexBias; };
-  const float to_cells = 1.0F / (static_cast<float>(static_cast<std::int32_t>(points)) * (1 << kPlaceBits));
-  return {.lower = Eigen::Array4i(unbiased(0), unbiased(1), unbiased(2), 0).cast<float>(),
-          .place = to_cells * Eigen::Array4i(places(0), places(1), places(2), 0).cast<float>()};
+  const auto to_cells = 1.0F / (static_cast<float>(sum[3]) * (1 << kPlaceBits));
+  return {.lower = Eigen::Array4i(along(0), along(1), along(2), 0).cast<float>(),
+          .place = to_cells * sum.cast<float>()};
 }
 
 }  // namespace
@@ -67,53 +67,73 @@ void VoxelGrid::add_pending() noexcept {
 
 void VoxelGrid::add_batch(std::span<const Eigen::Vector3f, kCellBatch> points_m, std::size_t size) noexcept {
   points_ += size;
-  const auto inverse_leaf_1pm = static_cast<float>(1.0 / leaf_m_);
-  if (!find_cells(points_m, inverse_leaf_1pm, batch_)) {
+  const auto slot_mask = static_cast<std::uint32_t>(table_.size() - 1);
+  if (!find_cells(points_m, inverse_leaf_1pm_, slot_mask, batch_)) {
     // Seldom: once more, without those that have no cell.
     Points inside;
     inside.fill(Eigen::Vector3f::Zero());
     std::size_t count = 0;
     for (std::size_t n = 0; n < size; ++n) {
-      if (!(points_m[n].array().abs() * inverse_leaf_1pm < kMostCells).all()) continue;
+      const Eigen::Array3f cells = points_m[n] * inverse_leaf_1pm_;
+      if (!(cells >= -kIndexBias && cells < kIndexBias).all()) continue;
       inside[count] = points_m[n];
       pending_rings_[count] = pending_rings_[n];
       ++count;
     }
     size = count;
-    if (!find_cells(inside, inverse_leaf_1pm, batch_)) return;
+    if (!find_cells(inside, inverse_leaf_1pm_, slot_mask, batch_)) return;
   }
-  if (options_.by_ring) set_rings(size);
-  options_.with_entropy ? sum_batch<true>(size) : sum_batch<false>(size);
+  if (size == 0) return;
+  if (options_.by_ring) set_rings();
+  if (size != kCellBatch) blank_from(size);
+  options_.with_entropy ? sum_batch<true>() : sum_batch<false>();
 }
 
 /// The ring goes where a block's key has no bits.
-void VoxelGrid::set_rings(std::size_t size) noexcept {
+void VoxelGrid::set_rings() noexcept {
   static_assert(kSpareBits == 13);
-  for (std::size_t n = 0; n < size; ++n) {
+  const auto slot_mask = static_cast<std::uint32_t>(table_.size() - 1);
+  for (std::size_t n = 0; n < kCellBatch; ++n) {
     const std::uint32_t ring = pending_rings_[n] & kMostRings;
-    batch_.block[n] |= ring;
-    batch_.hash[n] += ring * kRingStep;
+    batch_.key[n] |= ring;
+    batch_.slot[n] = (batch_.slot[n] + ring * kRingStep) & slot_mask;
+  }
+}
+
+/// What is no point is no more of the first one's cell.
+void VoxelGrid::blank_from(std::size_t size) noexcept {
+  for (std::size_t n = size; n < kCellBatch; ++n) {
+    batch_.key[n] = batch_.key[0];
+    batch_.slot[n] = batch_.slot[0];
+    batch_.cell[n] = batch_.cell[0];
+    batch_.point[n].setZero();
   }
 }
 
 template <bool kWithMoments>
-void VoxelGrid::sum_batch(std::size_t size) noexcept {
-  const std::size_t mask = table_.size() - 1;
-  for (std::size_t n = 0; n < size; ++n) {
-    std::uint32_t block = table_[batch_.hash[n] & mask];
-    if (keys_[block] != batch_.block[n]) [[unlikely]] {
-      block = find_or_open(batch_.block[n], batch_.hash[n]);
+void VoxelGrid::sum_batch() noexcept {
+  CellSum* const sums = sums_.data();  // else it would be read again after each sum
+  for (std::size_t first = 0; first < kStride; ++first) {
+    std::array<std::uint32_t, kTogether> cells;
+    for (std::size_t i = 0; i < kTogether; ++i) {
+      const std::size_t n = first + i * kStride;
+      std::uint32_t block = table_[batch_.slot[n]];
+      if (keys_[block] != batch_.key[n]) [[unlikely]]
+        block = find_or_open(n);
+      cells[i] = 8 * block + batch_.cell[n];
     }
-    CellSum& sum = blocks_[block][batch_.cell[n]];
-    const CellSum point = batch_.point[n];  // a copy, so that the four are added at once
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += point[i];
-    if constexpr (kWithMoments) add_point(moments_[block][batch_.cell[n]], point);
+    for (std::size_t i = 0; i < kTogether; ++i) {
+      const CellSum& point = batch_.point[first + i * kStride];
+      sums[cells[i]] += point;
+      if constexpr (kWithMoments) add_point(moments_[cells[i]], point);
+    }
   }
 }
 
-std::uint32_t VoxelGrid::find_or_open(std::uint64_t key, std::uint32_t hash) noexcept {
+std::uint32_t VoxelGrid::find_or_open(std::size_t n) noexcept {
+  const std::uint64_t key = batch_.key[n];
   const auto mask = static_cast<std::uint32_t>(table_.size() - 1);
-  std::uint32_t slot = hash & mask;
+  std::uint32_t slot = batch_.slot[n];
   for (; table_[slot] != kNoRoom; slot = (slot + kProbeStep) & mask) {
     if (keys_[table_[slot]] == key) return table_[slot];
   }
@@ -122,8 +142,8 @@ std::uint32_t VoxelGrid::find_or_open(std::uint64_t key, std::uint32_t hash) noe
   table_[slot] = block;
   slots_[block] = slot;
   keys_[block] = key;
-  blocks_[block] = {};
-  if (options_.with_entropy) moments_[block] = {};
+  std::fill_n(sums_.begin() + 8 * block, 8, CellSum::Zero());
+  if (options_.with_entropy) std::fill_n(moments_.begin() + 8 * block, 8, CellMoments{});
   return block;
 }
 
@@ -132,15 +152,13 @@ std::span<Eigen::Vector3f> VoxelGrid::finish() noexcept {
   const std::span<const std::uint32_t> cells = list_cells();
   std::size_t points = 0;
   for (std::size_t n = 0; n < cells.size(); ++n) {
-    const std::uint32_t block = cells[n] / 8;
-    const std::uint32_t cell = cells[n] % 8;
-    const CellSum& sum = blocks_[block][cell];
-    const Centroid at = centroid_of(keys_[block], cell, sum);
+    const CellSum& sum = sums_[cells[n]];
+    const Centroid at = centroid_of(keys_[cells[n] / 8], cells[n] % 8, sum);
     centroids_[n] = (static_cast<float>(leaf_m_) * (at.lower + at.place)).head<3>();
-    points += sum[3];
+    points += static_cast<std::size_t>(sum[3]);
     if (options_.with_entropy) {
       const Eigen::Vector3d mean_place = at.place.head<3>().cast<double>();
-      entropies_[n] = entropy_of(moments_[block][cell], mean_place, sum[3], leaf_m_);
+      entropies_[n] = entropy_of(moments_[cells[n]], mean_place, static_cast<std::uint32_t>(sum[3]), leaf_m_);
     }
   }
   dropped_points_ = points_ - points;
@@ -151,14 +169,13 @@ std::span<const std::uint32_t> VoxelGrid::list_cells() noexcept {
   const std::span<const SpatialKey> order = sort_blocks();
   std::size_t count = 0;
   for (std::size_t n = 0; n < order.size(); ++n) {
-    const Block& ahead = blocks_[order[std::min(n + kBlocksAhead, order.size() - 1)].index];
-    __builtin_prefetch(ahead.data());
-    __builtin_prefetch(ahead.data() + 4);
-    const std::uint32_t block = order[n].index;
-    for (std::uint32_t cell = 0; cell < 8; ++cell) {
+    const CellSum* const ahead = &sums_[8 * order[std::min(n + kBlocksAhead, order.size() - 1)].index];
+    __builtin_prefetch(ahead);
+    __builtin_prefetch(ahead + 4);
+    for (std::uint32_t cell = 8 * order[n].index; cell < 8 * order[n].index + 8; ++cell) {
       // Without a branch, as none would foresee which cells are empty.
-      cells_[count] = 8 * block + cell;
-      count += blocks_[block][cell][3] - 1 < kMostPointsOfCell ? 1U : 0U;
+      cells_[count] = cell;
+      count += sums_[cell][3] > 0 && sums_[cell][3] <= kMostPointsOfCell ? 1U : 0U;
     }
   }
   return std::span<const std::uint32_t>(cells_).first(std::min(count, centroids_.size()));

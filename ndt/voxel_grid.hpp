@@ -29,7 +29,7 @@ class VoxelGrid {
   VoxelGrid(double leaf_m, std::size_t capacity, const GridOptions& options = {});
 
   void clear() noexcept;
-  /// Points that are not finite, or kMostCells away, are left out.
+  /// Points that are not finite, or 2^17 cells away, are left out.
   void add(const Eigen::Vector3f& point_m, std::uint16_t ring = 0) noexcept {
     pending_[pending_size_] = point_m;
     pending_rings_[pending_size_] = ring;
@@ -47,26 +47,26 @@ class VoxelGrid {
   /// Points since `clear` that are in no centroid; known once `finish` has run.
   [[nodiscard]] std::size_t dropped_points() const noexcept { return dropped_points_; }
 
-  /// More would overflow a cell's sum: such a cell is left out.
-  static constexpr std::uint32_t kMostPointsOfCell = 1U << (31 - kPlaceBits);
+  /// More could overflow a cell's sum: such a cell is left out.
+  static constexpr std::int32_t kMostPointsOfCell = (1 << (31 - kPlaceBits)) - 1;
 
  private:
   using Points = std::array<Eigen::Vector3f, kCellBatch>;
   using Rings = std::array<std::uint16_t, kCellBatch>;
-  using Block = std::array<CellSum, 8>;
-  using BlockMoments = std::array<CellMoments, 8>;
   static constexpr std::uint32_t kNoRoom = 0;  ///< index of the block for points that find none
 
   void add_pending() noexcept;
   void add_batch(std::span<const Eigen::Vector3f, kCellBatch> points_m, std::size_t size) noexcept;
-  void set_rings(std::size_t size) noexcept;
+  void set_rings() noexcept;
+  void blank_from(std::size_t size) noexcept;
   template <bool kWithMoments>
-  void sum_batch(std::size_t size) noexcept;
-  [[nodiscard]] std::uint32_t find_or_open(std::uint64_t key, std::uint32_t hash) noexcept;
+  void sum_batch() noexcept;
+  [[nodiscard]] std::uint32_t find_or_open(std::size_t n) noexcept;
   [[nodiscard]] std::span<const std::uint32_t> list_cells() noexcept;
   [[nodiscard]] std::span<const SpatialKey> sort_blocks() noexcept;
 
   double leaf_m_;
+  float inverse_leaf_1pm_;
   GridOptions options_;
   std::size_t size_ = 1;  ///< blocks, kNoRoom among them
   std::size_t points_ = 0;
@@ -75,15 +75,14 @@ class VoxelGrid {
   Points pending_;
   Rings pending_rings_{};
   CellBatch batch_;
-  // Blocks in the order of their first points.
+  // Blocks in the order of their first points, each with its eight cells.
   std::vector<std::uint64_t> keys_;
-  std::vector<Block> blocks_;
-  std::vector<BlockMoments> moments_;
   std::vector<std::uint32_t> slots_;
+  std::vector<CellSum> sums_;
+  std::vector<CellMoments> moments_;
   std::vector<std::uint32_t> table_;  ///< of 2^n slots, by hash: indices of blocks; kNoRoom: free
   std::vector<SpatialKey> order_;     ///< and as much scratch
-  std::vector<std::uint32_t>
-      cells_;  ///< that have points, in order: 8 times the block, and which of its cells
+  std::vector<std::uint32_t> cells_;  ///< that have points, in order
   std::vector<Eigen::Vector3f> centroids_;
   std::vector<float> entropies_;
 };

@@ -38,9 +38,7 @@ std::vector<Eigen::Vector3f> filtered(ScanFilter& filter, const std::vector<Ring
 using RingCell = std::array<long, 4>;
 
 RingCell cell_of(const Eigen::Vector3f& p, double leaf_m, long ring) {
-  const auto index = [&](float v) {
-    return static_cast<long>(std::floor(static_cast<double>(v) / leaf_m + 0x1p-15));
-  };
+  const auto index = [&](float v) { return static_cast<long>(std::floor(static_cast<double>(v) / leaf_m)); };
   return {index(p.x()), index(p.y()), index(p.z()), ring};
 }
 
@@ -62,7 +60,11 @@ TEST(ScanFilter, VoxelGivesWhatAVoxelGridGives) {
 }
 
 TEST(ScanFilter, RingGivesTheCentroidOfEachRingInEachCell) {
-  const auto scan = random_scan(2, 20000);
+  auto scan = random_scan(2, 20000);
+  // Rounding may take a centroid across a border.
+  std::erase_if(scan, [](const RingPoint& p) {
+    return ((p.point_m.array() - 2.0F * (0.5F * p.point_m.array()).round()).abs() < 2e-4F).any();
+  });
   std::map<RingCell, std::pair<Eigen::Vector3d, int>> sums;
   for (const RingPoint& p : scan) {
     auto& [sum, count] =

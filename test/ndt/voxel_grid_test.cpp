@@ -24,6 +24,15 @@ std::vector<Eigen::Vector3f> random_points(std::uint64_t seed, std::size_t count
   return points_m;
 }
 
+/// Without points so near a border that rounding may take them or their centroid across it.
+std::vector<Eigen::Vector3f> inside_cells(std::vector<Eigen::Vector3f> points_m, float leaf_m,
+                                          float margin_m) {
+  std::erase_if(points_m, [=](const Eigen::Vector3f& p) {
+    return ((p.array() - leaf_m * (p.array() / leaf_m).round()).abs() < margin_m).any();
+  });
+  return points_m;
+}
+
 std::vector<Eigen::Vector3f> filtered(VoxelGrid& grid, std::span<const Eigen::Vector3f> points_m) {
   grid.clear();
   grid.add(points_m);
@@ -39,8 +48,7 @@ std::vector<Eigen::Vector3f> filtered(double leaf_m, std::span<const Eigen::Vect
 using CellIndex = std::array<long, 3>;
 
 CellIndex cell_of(const Eigen::Vector3d& point_m, double leaf_m) {
-  // As the filter has it: what is within half a step of its fixed point below a border is beyond it.
-  const auto index = [leaf_m](double v) { return static_cast<long>(std::floor(v / leaf_m + 0x1p-15)); };
+  const auto index = [leaf_m](double v) { return static_cast<long>(std::floor(v / leaf_m)); };
   return {index(point_m.x()), index(point_m.y()), index(point_m.z())};
 }
 
@@ -73,17 +81,17 @@ void expect_reference(std::span<const Eigen::Vector3f> points_m, double leaf_m, 
 
 TEST(VoxelGrid, GivesTheCentroidOfEveryCell) {
   const auto points_m = random_points(1, 20000, 20.0F);
-  for (const double leaf_m : {0.5, 1.0, 2.0}) expect_reference(points_m, leaf_m, 1e-4 * leaf_m);
+  for (const float leaf_m : {0.5F, 1.0F, 2.0F}) {
+    const auto scan_m = inside_cells(points_m, leaf_m, 1e-4F * leaf_m);
+    expect_reference(scan_m, static_cast<double>(leaf_m), 1e-4 * static_cast<double>(leaf_m));
+  }
 }
 
 TEST(VoxelGrid, IsAsPreciseFarFromTheOriginAsSinglePrecision) {
   auto points_m = random_points(2, 20000, 20.0F);
   for (Eigen::Vector3f& p : points_m) p += Eigen::Vector3f(1e4F, -1e4F, 100.0F);
-  // The step of single precision is 1 mm here; points that close to a border may go either way.
-  std::erase_if(points_m, [](const Eigen::Vector3f& p) {
-    return ((p.array() - 2.0F * (0.5F * p.array()).round()).abs() < 0.004F).any();
-  });
-  expect_reference(points_m, 2.0, 1e-3);
+  // The step of single precision is 1 mm here.
+  expect_reference(inside_cells(points_m, 2.0F, 0.004F), 2.0, 1e-3);
 }
 
 TEST(VoxelGrid, AveragesManyPointsOfOneCellWithoutDrift) {
@@ -102,6 +110,18 @@ TEST(VoxelGrid, ACellBeginsAtItsLowerBorder) {
   ASSERT_EQ(centroids.size(), 3U);
   EXPECT_NEAR(centroids[0].x(), -1.005F, 1e-4F);
   EXPECT_NEAR(centroids[1].x(), 0.995F, 1e-4F);
+  EXPECT_EQ(centroids[2].x(), 2.0F);
+}
+
+TEST(VoxelGrid, ACellEndsAtItsUpperBorderHoweverNearAPointComesToIt) {
+  const std::vector<Eigen::Vector3f> points_m{{-1e-30F, 0.0F, 0.0F},
+                                              {-1.0F, 0.0F, 0.0F},
+                                              {std::nextafter(2.0F, 0.0F), 0.0F, 0.0F},
+                                              {2.0F, 0.0F, 0.0F}};
+  const auto centroids = filtered(2.0, points_m);
+  ASSERT_EQ(centroids.size(), 3U);
+  EXPECT_NEAR(centroids[0].x(), -0.5F, 1e-4F);
+  EXPECT_NEAR(centroids[1].x(), 2.0F, 1e-4F);
   EXPECT_EQ(centroids[2].x(), 2.0F);
 }
 
@@ -147,11 +167,9 @@ TEST(VoxelGrid, StartsAfreshAfterClear) {
 TEST(VoxelGrid, LeavesOutPointsThatHaveNoCell) {
   auto points_m = random_points(5, 1000, 20.0F);
   const auto expected = filtered(1.0, points_m);
-  const std::vector<Eigen::Vector3f> bad{{kNan, 0.0F, 0.0F},
-                                         {0.0F, kInfinity, 0.0F},
-                                         {0.0F, 0.0F, -1.4e5F},
-                                         {1e30F, 0.0F, 0.0F},
-                                         {0.0F, kNan, kInfinity}};
+  const std::vector<Eigen::Vector3f> bad{{kNan, 0.0F, 0.0F},        {0.0F, kInfinity, 0.0F},
+                                         {0.0F, 0.0F, -131'073.0F}, {131'072.0F, 0.0F, 0.0F},
+                                         {1e30F, 0.0F, 0.0F},       {0.0F, kNan, kInfinity}};
   for (std::size_t i = 0; i < bad.size(); ++i) {
     points_m.insert(points_m.begin() + static_cast<std::ptrdiff_t>(150 * i), bad[i]);
   }
