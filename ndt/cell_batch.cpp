@@ -26,7 +26,7 @@ constexpr float kMagic = 1 << 23;
 /// Coordinates along one axis.
 struct Split {
   W index;  ///< of the cell, and kMagicBits
-  W place;  ///< in it
+  W place;  ///< in it, and kMagicBits
 };
 
 HWY_ATTR Split split(hn::Vec<Floats> position_m, float inverse_leaf_1pm) {
@@ -37,7 +37,7 @@ HWY_ATTR Split split(hn::Vec<Floats> position_m, float inverse_leaf_1pm) {
   const auto index = hn::Add(lower, hn::Set(d, kMagic + kIndexBias));
   // Fused or not, it is the same: the product is exact.
   const auto place = hn::MulAdd(hn::Sub(cells, lower), hn::Set(d, 1 << kPlaceBits), hn::Set(d, kMagic));
-  return {hn::BitCast(dw, index), hn::Xor(hn::BitCast(dw, place), hn::Set(dw, kMagicBits))};
+  return {hn::BitCast(dw, index), hn::BitCast(dw, place)};
 }
 
 /// The keys of blocks, as they lie in memory on a little-endian machine: the low half first.
@@ -60,6 +60,14 @@ HWY_ATTR W cell_in_block(W x, W y, W z) {
   const W odd = hn::Set(Words(), 1U);
   return hn::Or(hn::ShiftLeft<2>(hn::And(x, odd)),
                 hn::Or(hn::ShiftLeft<1>(hn::And(y, odd)), hn::And(z, odd)));
+}
+
+/// Four halves of words a point, as they lie in memory: the lower first.
+HWY_ATTR void store_places(W x, W y, W z, Place* places) {
+  const Words d;
+  const W x_y = hn::Xor(hn::Xor(x, hn::Set(d, kMagicBits)), hn::ShiftLeft<16>(y));
+  const W z_one = hn::Xor(z, hn::Set(d, kMagicBits ^ 1U << 16));
+  hn::StoreInterleaved2(x_y, z_one, d, reinterpret_cast<std::uint32_t*>(places));
 }
 
 HWY_ATTR bool find_cells_simd(const float* points_m, float inverse_leaf_1pm, std::uint32_t slot_mask,
@@ -85,8 +93,7 @@ HWY_ATTR bool find_cells_simd(const float* points_m, float inverse_leaf_1pm, std
     store_keys(block_x, block_y, block_z, batch.key.data() + n);
     hn::Store(hn::And(hash_of_block(block_x, block_y, block_z), mask), dw, batch.slot.data() + n);
     hn::Store(cell_in_block(x.index, y.index, z.index), dw, batch.cell.data() + n);
-    hn::StoreInterleaved4(x.place, y.place, z.place, hn::Set(dw, 1U), dw,
-                          reinterpret_cast<std::uint32_t*>(batch.point[n].data()));
+    store_places(x.place, y.place, z.place, batch.place.data() + n);
   }
   return hn::AllTrue(dw, hn::Lt(strange, hn::Set(dw, 2U * kIndexBias)));
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -26,17 +27,26 @@ inline constexpr int kSpareBits = 64 - 3 * kBlockBits;
   return static_cast<std::uint32_t>(key >> (64 - (axis + 1) * kBlockBits)) & ((1U << kBlockBits) - 1);
 }
 
-/// Places x, y, z of points in their cell, summed, and how many they are.
-using CellSum = Eigen::Array4i;
+/// A point in its cell: places x, y, z, and 1, the number of points.
+using Place = std::array<std::uint16_t, 4>;
+using CellSum = Eigen::Array4i;  ///< of Places
+
+/// What a cast does, but in one instruction of 16 bytes: compilers make ten of the cast.
+[[nodiscard]] inline CellSum widened(const Place& place) noexcept {
+  using Halves = std::uint16_t __attribute__((vector_size(16)));
+  using Pair = std::uint64_t __attribute__((vector_size(16)));
+  const auto halves = std::bit_cast<Halves>(Pair{std::bit_cast<std::uint64_t>(place), 0});
+  const Halves words = __builtin_shufflevector(halves, Halves{}, 0, 8, 1, 9, 2, 10, 3, 11);
+  return Eigen::Map<const CellSum>(std::bit_cast<std::array<std::int32_t, 4>>(words).data());
+}
 
 inline constexpr std::size_t kCellBatch = 128;
 
 struct CellBatch {
-  alignas(64) std::array<std::uint64_t, kCellBatch> key;  ///< of the block
-  alignas(
-      64) std::array<std::uint32_t, kCellBatch> slot;  ///< hash of the block: one more for the next along x
+  alignas(64) std::array<std::uint64_t, kCellBatch> key;   ///< of the block
+  alignas(64) std::array<std::uint32_t, kCellBatch> slot;  ///< hash of it: one more for the next along x
   alignas(64) std::array<std::uint32_t, kCellBatch> cell;  ///< of the block's eight: i, j, k from bit 2 down
-  alignas(64) std::array<CellSum, kCellBatch> point;       ///< the sum of one
+  alignas(64) std::array<Place, kCellBatch> place;
 };
 
 /// `slot_mask`: the bits that a hash has. False if a point has no cell: then nothing of the batch counts. The

@@ -14,10 +14,10 @@ namespace landfix::ndt {
 /// Sums over a cell's points of the products of their places in it: xx xy xz yy yz zz [2^-28 of its edge^2].
 using CellMoments = std::array<std::uint64_t, 6>;
 
-inline void add_point(CellMoments& moments, const CellSum& point) noexcept {
-  const auto x = static_cast<std::uint64_t>(point[0]);
-  const auto y = static_cast<std::uint64_t>(point[1]);
-  const auto z = static_cast<std::uint64_t>(point[2]);
+inline void add_point(CellMoments& moments, const Place& place) noexcept {
+  const std::uint64_t x = place[0];
+  const std::uint64_t y = place[1];
+  const std::uint64_t z = place[2];
   const CellMoments products{x * x, x * y, x * z, y * y, y * z, z * z};
   for (std::size_t i = 0; i < products.size(); ++i) moments[i] += products[i];
 }

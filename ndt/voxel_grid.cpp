@@ -1,7 +1,6 @@
 #include "ndt/voxel_grid.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace landfix::ndt {
 namespace {
@@ -19,22 +18,20 @@ constexpr std::uint32_t kMostRings = (1U << (kSpareBits - 1)) - 1;
 constexpr std::size_t kTogether = 8;
 constexpr std::size_t kStride = kCellBatch / kTogether;
 
-/// Blocks are read in another order than written: each is fetched while so many before it are read.
-constexpr std::size_t kBlocksAhead = 6;
+/// i, j, k of a block's cells, from its lowest.
+alignas(16) constexpr auto kCellsOfBlock = [] {
+  std::array<std::array<std::int32_t, 4>, 8> cells{};
+  for (std::int32_t cell = 0; cell < 8; ++cell) {
+    cells[static_cast<std::size_t>(cell)] = {cell >> 2, cell >> 1 & 1, cell & 1, 0};
+  }
+  return cells;
+}();
 
-/// In units of the leaf; the fourth numbers are nothing.
-struct Centroid {
-  Eigen::Array4f lower;  ///< corner of the cell
-  Eigen::Array4f place;  ///< of the points' mean, from there
-};
-
-[[nodiscard]] Centroid centroid_of(std::uint64_t key, std::uint32_t cell, const CellSum& sum) noexcept {
-  const auto along = [&](int axis) {
-    return static_cast<std::int32_t>(2 * block_index(key, axis) + (cell >> (2 - axis) & 1U)) - kIndexBias;
+[[nodiscard]] Eigen::Array4i lowest_cell_of(std::uint64_t key) noexcept {
+  const auto along = [key](int axis) {
+    return 2 * static_cast<std::int32_t>(block_index(key, axis)) - kIndexBias;
   };
-  const auto to_cells = 1.0F / (static_cast<float>(sum[3]) * (1 << kPlaceBits));
-  return {.lower = Eigen::Array4i(along(0), along(1), along(2), 0).cast<float>(),
-          .place = to_cells * sum.cast<float>()};
+  return {along(0), along(1), along(2), 0};
 }
 
 }  // namespace
@@ -106,7 +103,7 @@ void VoxelGrid::blank_from(std::size_t size) noexcept {
     batch_.key[n] = batch_.key[0];
     batch_.slot[n] = batch_.slot[0];
     batch_.cell[n] = batch_.cell[0];
-    batch_.point[n].setZero();
+    batch_.place[n] = {};
   }
 }
 
@@ -123,9 +120,9 @@ void VoxelGrid::sum_batch() noexcept {
       cells[i] = 8 * block + batch_.cell[n];
     }
     for (std::size_t i = 0; i < kTogether; ++i) {
-      const CellSum& point = batch_.point[first + i * kStride];
-      sums[cells[i]] += point;
-      if constexpr (kWithMoments) add_point(moments_[cells[i]], point);
+      const Place& place = batch_.place[first + i * kStride];
+      sums[cells[i]] += widened(place);
+      if constexpr (kWithMoments) add_point(moments_[cells[i]], place);
     }
   }
 }
@@ -142,62 +139,73 @@ std::uint32_t VoxelGrid::find_or_open(std::size_t n) noexcept {
   table_[slot] = block;
   slots_[block] = slot;
   keys_[block] = key;
-  std::fill_n(sums_.begin() + 8 * block, 8, CellSum::Zero());
-  if (options_.with_entropy) std::fill_n(moments_.begin() + 8 * block, 8, CellMoments{});
+  corners_[block] = lowest_cell_of(key);
+  const std::size_t cell = std::size_t{8} * block;
+  std::fill_n(&sums_[cell], 8, CellSum::Zero());
+  if (options_.with_entropy) std::fill_n(&moments_[cell], 8, CellMoments{});
   return block;
+}
+
+inline void VoxelGrid::average(std::uint32_t cell, std::size_t n) noexcept {
+  const CellSum& sum = sums_[cell];
+  const Eigen::Array4i from_corner =
+      Eigen::Map<const Eigen::Array4i, Eigen::Aligned16>(kCellsOfBlock[cell % 8].data());
+  const Eigen::Array4f lower = (corners_[cell / 8] + from_corner).cast<float>();
+  const Eigen::Array4f place = sum.cast<float>() * (1.0F / (static_cast<float>(sum[3]) * (1 << kPlaceBits)));
+  // Four numbers at once: the next centroid is written over the fourth.
+  Eigen::Map<Eigen::Array4f>(centroids_[n].data()) = static_cast<float>(leaf_m_) * (lower + place);
+  if (options_.with_entropy) {
+    const Eigen::Vector3d mean_place = place.head<3>().cast<double>();
+    entropies_[n] = entropy_of(moments_[cell], mean_place, static_cast<std::uint32_t>(sum[3]), leaf_m_);
+  }
 }
 
 std::span<Eigen::Vector3f> VoxelGrid::finish() noexcept {
   add_pending();
-  const std::span<const std::uint32_t> cells = list_cells();
+  std::size_t count = 0;
   std::size_t points = 0;
-  for (std::size_t n = 0; n < cells.size(); ++n) {
-    const CellSum& sum = sums_[cells[n]];
-    const Centroid at = centroid_of(keys_[cells[n] / 8], cells[n] % 8, sum);
-    centroids_[n] = (static_cast<float>(leaf_m_) * (at.lower + at.place)).head<3>();
-    points += static_cast<std::size_t>(sum[3]);
-    if (options_.with_entropy) {
-      const Eigen::Vector3d mean_place = at.place.head<3>().cast<double>();
-      entropies_[n] = entropy_of(moments_[cells[n]], mean_place, static_cast<std::uint32_t>(sum[3]), leaf_m_);
+  for (std::span<const SpatialKey> rest = sort_blocks(); !rest.empty();
+       rest = rest.subspan(std::min(kBlocksAtOnce, rest.size()))) {
+    const std::span<const std::uint32_t> cells = list_cells(rest);
+    for (const std::uint32_t cell : cells.first(std::min(cells.size(), centroids_.size() - 1 - count))) {
+      average(cell, count++);
+      points += static_cast<std::size_t>(sums_[cell][3]);
     }
   }
   dropped_points_ = points_ - points;
-  return std::span(centroids_).first(cells.size());
+  return std::span(centroids_).first(count);
 }
 
-std::span<const std::uint32_t> VoxelGrid::list_cells() noexcept {
-  const std::span<const SpatialKey> order = sort_blocks();
+/// Those with points of the first kBlocksAtOnce.
+std::span<const std::uint32_t> VoxelGrid::list_cells(std::span<const SpatialKey> order) noexcept {
   std::size_t count = 0;
-  for (std::size_t n = 0; n < order.size(); ++n) {
-    const CellSum* const ahead = &sums_[8 * order[std::min(n + kBlocksAhead, order.size() - 1)].index];
+  for (std::size_t n = 0; n < std::min(kBlocksAtOnce, order.size()); ++n) {
+    // Blocks are read in another order than written: those of the next call are fetched.
+    const CellSum* const ahead =
+        &sums_[std::size_t{8} * order[std::min(n + kBlocksAtOnce, order.size() - 1)].index];
     __builtin_prefetch(ahead);
     __builtin_prefetch(ahead + 4);
     for (std::uint32_t cell = 8 * order[n].index; cell < 8 * order[n].index + 8; ++cell) {
       // Without a branch, as none would foresee which cells are empty.
-      cells_[count] = cell;
-      count += sums_[cell][3] > 0 && sums_[cell][3] <= kMostPointsOfCell ? 1U : 0U;
+      listed_[count] = cell;
+      count += static_cast<std::uint32_t>(sums_[cell][3] - 1) < std::uint32_t{kMostPointsOfCell} ? 1U : 0U;
     }
   }
-  return std::span<const std::uint32_t>(cells_).first(std::min(count, centroids_.size()));
+  return std::span<const std::uint32_t>(listed_).first(count);
 }
 
 std::span<const SpatialKey> VoxelGrid::sort_blocks() noexcept {
+  const std::span<const Eigen::Array4i> corners = std::span(corners_).subspan(1, size_ - 1);
   // Counted from the least, the indices have few bits to be sorted by.
-  std::array<std::uint32_t, 3> least;
-  least.fill(std::numeric_limits<std::uint32_t>::max());
-  for (std::size_t n = 1; n < size_; ++n) {
-    for (int axis = 0; axis < 3; ++axis) {
-      std::uint32_t& at_axis = least[static_cast<std::size_t>(axis)];
-      at_axis = std::min(at_axis, block_index(keys_[n], axis));
-    }
-  }
-  const std::span<SpatialKey> order = std::span(order_).first(size_ - 1);
-  for (std::size_t n = 1; n < size_; ++n) {
-    const std::uint64_t key = keys_[n];
-    const std::uint64_t code = morton_code(block_index(key, 0) - least[0], block_index(key, 1) - least[1],
-                                           block_index(key, 2) - least[2]);
-    const std::uint64_t ring = key & kMostRings;
-    order[n - 1] = {.code = code << kSpareBits | ring, .index = static_cast<std::uint32_t>(n)};
+  Eigen::Array4i least = Eigen::Array4i::Constant(kIndexBias);
+  for (const Eigen::Array4i& corner : corners) least = least.min(corner);
+  const std::span<SpatialKey> order = std::span(order_).first(corners.size());
+  for (std::size_t n = 0; n < corners.size(); ++n) {
+    const Eigen::Array4i at = corners[n] - least;
+    const auto along = [&](int axis) { return static_cast<std::uint64_t>(at[axis]) / 2; };
+    const std::uint64_t ring = keys_[n + 1] & kMostRings;
+    order[n] = {.code = morton_code(along(0), along(1), along(2)) << kSpareBits | ring,
+                .index = static_cast<std::uint32_t>(n + 1)};
   }
   sort_by_code(order, std::span(order_).last(order.size()));
   return order;

@@ -53,7 +53,8 @@ class VoxelGrid {
  private:
   using Points = std::array<Eigen::Vector3f, kCellBatch>;
   using Rings = std::array<std::uint16_t, kCellBatch>;
-  static constexpr std::uint32_t kNoRoom = 0;  ///< index of the block for points that find none
+  static constexpr std::uint32_t kNoRoom = 0;       ///< index of the block for points that find none
+  static constexpr std::size_t kBlocksAtOnce = 16;  ///< whose cells are listed and then averaged
 
   void add_pending() noexcept;
   void add_batch(std::span<const Eigen::Vector3f, kCellBatch> points_m, std::size_t size) noexcept;
@@ -62,8 +63,9 @@ class VoxelGrid {
   template <bool kWithMoments>
   void sum_batch() noexcept;
   [[nodiscard]] std::uint32_t find_or_open(std::size_t n) noexcept;
-  [[nodiscard]] std::span<const std::uint32_t> list_cells() noexcept;
   [[nodiscard]] std::span<const SpatialKey> sort_blocks() noexcept;
+  [[nodiscard]] std::span<const std::uint32_t> list_cells(std::span<const SpatialKey> order) noexcept;
+  void average(std::uint32_t cell, std::size_t n) noexcept;
 
   double leaf_m_;
   float inverse_leaf_1pm_;
@@ -78,12 +80,13 @@ class VoxelGrid {
   // Blocks in the order of their first points, each with its eight cells.
   std::vector<std::uint64_t> keys_;
   std::vector<std::uint32_t> slots_;
+  std::vector<Eigen::Array4i> corners_;  ///< i, j, k of its lowest cell, 0
   std::vector<CellSum> sums_;
   std::vector<CellMoments> moments_;
   std::vector<std::uint32_t> table_;  ///< of 2^n slots, by hash: indices of blocks; kNoRoom: free
   std::vector<SpatialKey> order_;     ///< and as much scratch
-  std::vector<std::uint32_t> cells_;  ///< that have points, in order
-  std::vector<Eigen::Vector3f> centroids_;
+  std::array<std::uint32_t, 8 * kBlocksAtOnce> listed_{};  ///< cells: 8 times the block, and which of its
+  std::vector<Eigen::Vector3f> centroids_;                 ///< and one more, see average()
   std::vector<float> entropies_;
 };
 
