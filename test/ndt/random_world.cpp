@@ -1,7 +1,10 @@
 #include "ndt/random_world.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
+#include "ndt/spatial_sort.hpp"
 #include "ndt/voxel_map_builder.hpp"
 
 namespace landfix::ndt::test {
@@ -54,6 +57,18 @@ std::vector<Eigen::Vector3f> seen_from(const std::vector<Eigen::Vector3d>& point
   const Pose inverse = pose.inverse();
   for (const Eigen::Vector3d& point_m : points_m) seen.emplace_back((inverse * point_m).cast<float>());
   return seen;
+}
+
+std::vector<Eigen::Vector3f> in_spatial_order(std::vector<Eigen::Vector3f> points_m) {
+  const auto code = [](const Eigen::Vector3f& point_m) {
+    constexpr float kCell_m = 2.0F;
+    constexpr float kBias_m = 1000.0F;
+    const Eigen::Vector3f cell = (point_m.array() + kBias_m) / kCell_m;
+    return morton_code(static_cast<std::uint64_t>(cell.x()), static_cast<std::uint64_t>(cell.y()),
+                       static_cast<std::uint64_t>(cell.z()));
+  };
+  std::ranges::stable_sort(points_m, {}, code);
+  return points_m;
 }
 
 Pose random_pose(std::mt19937_64& random, double translation_m, double rotation_rad) {

@@ -25,6 +25,9 @@ namespace landfix::ndt::test {
 [[nodiscard]] std::vector<Eigen::Vector3f> seen_from(const std::vector<Eigen::Vector3d>& points_m,
                                                      const Pose& pose);
 
+/// As a filter hands scans over: neighbours near each other.
+[[nodiscard]] std::vector<Eigen::Vector3f> in_spatial_order(std::vector<Eigen::Vector3f> points_m);
+
 /// Up to `translation_m` and `rotation_rad` away from the identity.
 [[nodiscard]] Pose random_pose(std::mt19937_64& random, double translation_m, double rotation_rad);
 
