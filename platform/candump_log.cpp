@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t kMaxInterfaceLength = 15;  // IFNAMSIZ, less its final zero
 constexpr std::uint32_t kMaxStandardId = 0x7FF;
 constexpr std::uint32_t kMaxExtendedId = 0x1FFFFFFF;
+constexpr std::uint8_t kBitRateSwitch = 1;  // the flags of CAN FD: CANFD_BRS
 constexpr std::string_view kHexDigits = "0123456789ABCDEF";
 
 /// Takes what `text` begins with up to `end`, and `end`; nothing if there is no such end.
@@ -55,6 +56,17 @@ bool parse_id(std::string_view text, CanFrame& frame) noexcept {
   return *id <= (frame.extended ? kMaxExtendedId : kMaxStandardId);
 }
 
+/// The second # of CAN FD and its digit of flags, where they are.
+bool parse_fd(std::string_view& text, CanFrame& frame) noexcept {
+  frame.fd = text.starts_with('#');
+  if (!frame.fd) return true;
+  const auto flags = parse_unsigned<std::uint8_t>(text.substr(1, 1), 16);
+  if (!flags) return false;
+  frame.bit_rate_switch = (*flags & kBitRateSwitch) != 0;
+  text.remove_prefix(2);
+  return true;
+}
+
 /// Pairs of digits, dots between them allowed.
 bool parse_data(std::string_view text, CanFrame& frame) noexcept {
   while (!text.empty()) {
@@ -64,7 +76,7 @@ bool parse_data(std::string_view text, CanFrame& frame) noexcept {
     text.remove_prefix(2);
     if (text.size() > 1 && text.front() == '.') text.remove_prefix(1);
   }
-  return true;
+  return is_can_length(frame.length, frame.fd);
 }
 
 }  // namespace
@@ -86,15 +98,15 @@ CandumpLog::CandumpLog(std::filesystem::path path, std::string interface)
 bool CandumpLog::send(const CanFrame& frame, std::int64_t stamp_utc_ns) noexcept {
   if (failed_) return false;
   try {
-    std::array<char, 96> line;
+    std::array<char, 192> line;
     char* out = fmt::format_to(line.data(), "({}.{:06}) {} ", stamp_utc_ns / 1'000'000'000,
                                stamp_utc_ns / 1'000 % 1'000'000, interface_);
     out =
         frame.extended ? fmt::format_to(out, "{:08X}#", frame.id) : fmt::format_to(out, "{:03X}#", frame.id);
-    for (std::size_t i = 0; i < std::min<std::size_t>(frame.length, frame.data.size()); ++i) {
-      const auto byte = std::to_integer<std::size_t>(frame.data[i]);
-      *out++ = kHexDigits[byte >> 4];
-      *out++ = kHexDigits[byte & 0xF];
+    if (frame.fd) out = fmt::format_to(out, "#{:X}", frame.bit_rate_switch ? kBitRateSwitch : 0);
+    for (const std::byte byte : frame.payload()) {
+      *out++ = kHexDigits[std::to_integer<std::size_t>(byte >> 4)];
+      *out++ = kHexDigits[std::to_integer<std::size_t>(byte & std::byte{0xF})];
     }
     *out++ = '\n';
     file_.write(std::string_view(line.data(), static_cast<std::size_t>(out - line.data())));
@@ -127,7 +139,10 @@ std::optional<LoggedFrame> parse_candump_line(std::string_view line) noexcept {
 
   LoggedFrame logged{.interface = *interface};
   const auto stamp_utc_ns = parse_stamp(*stamp);
-  if (!stamp_utc_ns || !parse_id(*id, logged.frame) || !parse_data(line, logged.frame)) return std::nullopt;
+  if (!stamp_utc_ns || !parse_id(*id, logged.frame) || !parse_fd(line, logged.frame) ||
+      !parse_data(line, logged.frame)) {
+    return std::nullopt;
+  }
   logged.stamp_utc_ns = *stamp_utc_ns;
   return logged;
 }

@@ -1,5 +1,6 @@
 // CAN frames as lines of text, as candump -l writes and canplayer reads them:
 //   (1700000000.123456) can0 3A0#471387D6124CA4FE
+//   (1700000000.123456) can0 3A9##1...             CAN FD: flags, 1 for the faster bit rate; then the data
 #pragma once
 
 #include <cstddef>
@@ -41,7 +42,7 @@ struct LoggedFrame {
   CanFrame frame{};
 };
 
-/// A data frame of classic CAN; nothing for remote frames, CAN FD, and lines that are no frame.
+/// A data frame; nothing for remote frames and lines that are no frame.
 [[nodiscard]] std::optional<LoggedFrame> parse_candump_line(std::string_view line) noexcept;
 
 }  // namespace landfix::platform

@@ -13,13 +13,12 @@
 #include "drivers/sensor_model.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/candump_log.hpp"
+#include "platform/pose_frame_table.hpp"
 #include "platform/toml_section.hpp"
 
 namespace landfix::platform {
 namespace {
 
-// The last frame of the block that starts at the base id still has an 11-bit identifier.
-constexpr std::uint32_t kMaxBaseId = 0x7FF - 8;
 constexpr std::size_t kMaxUnixPathLength = 107;
 
 constexpr std::array kSections{"sensor", "vehicle", "map", "initial_pose",
@@ -114,7 +113,6 @@ void read_can(TomlSection section, CanSettings& can) {
   section.read("rate_hz", can.rate_hz, {1.0, 100.0});
   section.read("fd", can.fd);
   section.finish();
-  if (can.fd) section.fail("fd", "false: CAN FD is not implemented, classic frames are");
 }
 
 void read_metrics(TomlSection section, MetricsSettings& metrics) {

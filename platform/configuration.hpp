@@ -45,7 +45,7 @@ struct CanSettings {
   std::string interface = "can0";
   std::uint32_t base_id = 0x3A0;  ///< of the first frame, 11 bits
   double rate_hz = 10.0;          ///< of the poses on a live bus; a replay logs one for each sweep
-  bool fd = false;                ///< CAN FD is not implemented: true is refused
+  bool fd = false;                ///< each pose as one frame of CAN FD instead of six of classic CAN
 };
 
 struct MetricsSettings {

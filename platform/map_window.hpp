@@ -40,6 +40,9 @@ class MapWindow {
 
   /// Of the whole map; its counts are not the window's.
   [[nodiscard]] double resolution_m() const noexcept { return assembler_.map_header().resolution_m; }
+  [[nodiscard]] std::uint32_t map_checksum() const noexcept {
+    return assembler_.map_header().header_checksum;
+  }
 
   /// For the solver: the newest window, valid until the next call; `place_m` is where the vehicle is. Takes
   /// no lock and never waits.

@@ -1,9 +1,8 @@
 #include "platform/pipeline.hpp"
 
-#include <limits>
-#include <numeric>
 
 #include "platform/monotonic_clock.hpp"
+#include "platform/pose_report.hpp"
 
 namespace landfix::platform {
 
@@ -84,26 +83,27 @@ SweepResult Pipeline::localize(const drivers::Sweep& sweep) noexcept {
   const ndt::Fix fix = localizer_.localize(points_m, sweep.end_utc_ns());
   record(Stage::match, monotonic_ns() - began_ns);
 
+  const SweepResult result{.fix = fix,
+                           .points_filtered = points_m.size(),
+                           .complete = sweep.complete(),
+                           .time_source = sweep.time_source()};
   began_ns = monotonic_ns();
-  publish(fix);
+  publish(result);
   record(Stage::publish, monotonic_ns() - began_ns);
 
   counters_.points_overflowed += sweep.overflowed();
   counters_.pairs_dropped += fix.match.pairs_dropped;
-  return {.fix = fix,
-          .points_filtered = points_m.size(),
-          .complete = sweep.complete(),
-          .time_source = sweep.time_source()};
+  return result;
 }
 
-void Pipeline::publish(const ndt::Fix& fix) noexcept {
+void Pipeline::publish(const SweepResult& result) noexcept {
   if (bus_ == nullptr) return;
-  // A pose that is not to be used is sent as "not available", never as numbers.
-  ndt::Pose pose = fix.at.pose;
-  if (!ndt::is_usable(fix.state)) pose.matrix().setConstant(std::numeric_limits<double>::quiet_NaN());
-  const PoseFrames encoded = encoder_.encode(pose);
-  for (const CanFrame& frame : encoded.frames) {
-    if (!bus_->send(frame, fix.at.stamp_utc_ns)) ++counters_.frames_dropped;
+  PoseReport report = report_of(result.fix, result.time_source, result.complete);
+  report.map_hash = settings_.map_hash;
+  report.frames_version = kFramesVersion;
+  const PoseFrames encoded = encoder_.encode(report);
+  for (const CanFrame& frame : encoded.all()) {
+    if (!bus_->send(frame, result.fix.at.stamp_utc_ns)) ++counters_.frames_dropped;
   }
   if (encoded.saturated) ++counters_.frames_saturated;
 }

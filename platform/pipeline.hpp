@@ -43,6 +43,8 @@ struct PipelineSettings {
   ndt::LocalizerSettings localizer{};
   ndt::Pose initial_pose = ndt::Pose::Identity();  ///< map <- vehicle
   std::uint32_t can_base_id = 0x3A0;
+  bool can_fd = false;
+  std::uint16_t map_hash = 0;  ///< told on the bus
 };
 
 /// What came of one sweep.
@@ -92,7 +94,7 @@ class Pipeline {
   [[nodiscard]] SweepResult localize(const drivers::Sweep& sweep) noexcept;
   void filter_new_points(const drivers::Sweep& sweep) noexcept;
   [[nodiscard]] std::span<const Eigen::Vector3f> finish_filter(std::int64_t end_utc_ns) noexcept;
-  void publish(const ndt::Fix& fix) noexcept;
+  void publish(const SweepResult& result) noexcept;
   void record(Stage stage, std::int64_t duration_ns) noexcept;
 
   PipelineSettings settings_;

@@ -11,7 +11,7 @@ Pipeline::Pipeline(const PipelineSettings& settings, const drivers::AnyDecoder& 
       sweeps_(points_),
       filter_(settings.filter, settings.filter_capacity),
       localizer_(map, settings.localizer, settings.initial_pose),
-      encoder_(settings.can_base_id),
+      encoder_(settings.can_base_id, settings.can_fd),
       bus_(bus),
       window_(window) {}
 

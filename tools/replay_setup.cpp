@@ -47,7 +47,8 @@ namespace {
       .filter = configuration.filter,
       .deskew = input.deskew,
       .initial_pose = *initial_pose,
-      .can_base_id = configuration.can.base_id};
+      .can_base_id = configuration.can.base_id,
+      .can_fd = configuration.can.fd};
   settings.localizer.matcher.max_iterations = configuration.matcher.max_iterations;
   return settings;
 }
@@ -57,6 +58,13 @@ namespace {
   std::filesystem::path path = input.map.empty() ? configuration.map.file : input.map;
   if (path.empty()) throw UsageError("no map: give --map, or [map] file in the configuration");
   return path;
+}
+
+/// By which a receiver tells one map from another: the checksum that covers all of it.
+[[nodiscard]] std::uint16_t hash_of(const ReplaySetup& setup) {
+  const std::uint32_t checksum =
+      setup.window ? setup.window->map_checksum() : setup.map().header().header_checksum;
+  return static_cast<std::uint16_t>(checksum ^ checksum >> 16);
 }
 
 /// The map, whole if its memory allows, else a window of it.
@@ -85,6 +93,7 @@ ReplaySetup prepare_replay(const ReplayInput& input) {
   ReplaySetup setup{std::move(configuration), model, settings, decoder, {}, nullptr};
   const std::filesystem::path path = map_path(setup.configuration, input);
   add_map(setup, path);
+  setup.settings.map_hash = hash_of(setup);
   const double resolution_m = setup.map().resolution_m();
   if (resolution_m != setup.configuration.matcher.resolution_m) {
     throw std::runtime_error(fmt::format(

@@ -10,6 +10,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto logged = parse_candump_line({reinterpret_cast<const char*>(data), size});
   if (!logged) return 0;
   const std::uint32_t max_id = logged->frame.extended ? 0x1FFFFFFF : 0x7FF;
-  if (logged->frame.length > 8 || logged->frame.id > max_id || logged->stamp_utc_ns < 0) std::abort();
+  if (!is_can_length(logged->frame.length, logged->frame.fd) || logged->frame.id > max_id ||
+      logged->stamp_utc_ns < 0)
+    std::abort();
   return 0;
 }

@@ -12,6 +12,7 @@
 #include "platform/page_faults.hpp"
 #include "platform/pcap_source.hpp"
 #include "platform/pcap_writer.hpp"
+#include "platform/pose_frame_decoder.hpp"
 #include "platform/pose_frames.hpp"
 #include "support/frames.hpp"
 #include "support/test_data.hpp"
@@ -105,11 +106,16 @@ TEST_F(HeapCounterTest, ReadingACaptureDoesNotTouchTheHeap) {
 TEST_F(HeapCounterTest, SendingAPoseIntoALogDoesNotTouchTheHeap) {
   const test::TemporaryDirectory directory;
   CandumpLog log(directory.path() / "can.log", "can0");
-  PoseFrameEncoder encoder(0x3A0);
+  PoseFrameEncoder encoder(0x3A0, false);
+  PoseFrameEncoder fd_encoder(0x3A0, true);
+  PoseFrameDecoder decoder(0x3A0);
   LatencyHistogram latency;
   EXPECT_EQ(calls_of([&] {
               for (int i = 0; i < 5000; ++i) {
-                for (const CanFrame& frame : encoder.encode(ndt::Pose::Identity()).frames) {
+                const PoseReport report = report_of({}, drivers::TimeSource::sensor, true);
+                for (const CanFrame& frame : fd_encoder.encode(report).all()) (void)log.send(frame, 0);
+                for (const CanFrame& frame : encoder.encode(report).all()) {
+                  (void)decoder.decode(frame, 0);
                   EXPECT_TRUE(log.send(frame, 1'700'000'000'000'000'000 + i));
                 }
                 latency.record(i);

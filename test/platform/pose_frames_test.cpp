@@ -1,134 +1,195 @@
 #include "platform/pose_frames.hpp"
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "platform/e2e.hpp"
 #include "support/frames.hpp"
+#include "support/random_pose_report.hpp"
 
 namespace landfix::platform {
 namespace {
 
 using namespace landfix::test;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double sent(const Signal& signal, double value) {
-  std::array<std::byte, 8> data{};
-  (void)encode_signal(signal, value, data);
-  return decode_signal(signal, data);
+ndt::Fix fix_at(const Eigen::Vector3d& place_m, const ndt::RollPitchYaw& angles) {
+  ndt::Fix fix;
+  fix.at = {.stamp_utc_ns = 1'700'000'000'000'000'000, .pose = ndt::make_pose(place_m, angles)};
+  fix.state = ndt::State::tracking;
+  fix.covariance = ndt::Matrix6::Zero();
+  return fix;
 }
 
-bool saturates(const Signal& signal, double value) {
-  std::array<std::byte, 8> data{};
-  return encode_signal(signal, value, data);
+PoseReport report_at(double x_m, std::int64_t stamp_utc_ns = 1'700'000'000'000'000'000) {
+  PoseReport report = report_of(fix_at({x_m, 0.0, 0.0}, {}), drivers::TimeSource::sensor, true);
+  report.stamp_utc_ns = stamp_utc_ns;
+  return report;
 }
 
-TEST(PoseFrames, AreTheGoldenFrames) {
-  const EncodedFrame position = encode_frame(kPositionFrame, 0x3A0, 3, std::array{1234.567, -89.012});
-  EXPECT_EQ(position.frame.id, 0x3A0U);
-  EXPECT_TRUE(same(position.frame.data, bytes({0x47, 0x13, 0x87, 0xD6, 0x12, 0x4C, 0xA4, 0xFE})));
-  EXPECT_FALSE(position.saturated);
-  const EncodedFrame attitude = encode_frame(kAttitudeFrame, 0x3A0, 3, std::array{1.5708, -0.0123, 0.0045});
-  EXPECT_EQ(attitude.frame.id, 0x3A1U);
-  EXPECT_TRUE(same(attitude.frame.data, bytes({0xFE, 0x13, 0x5C, 0x3D, 0x85, 0xFF, 0x2D, 0x00})));
+TEST(PoseFrames, AreTheGoldenFramesOfClassicCan) {
+  PoseReport report;
+  report.x_m = 1234.567;
+  report.y_m = -89.012;
+  report.yaw_rad = 1.5708;
+  report.pitch_rad = -0.0123;
+  report.roll_rad = 0.0045;
+  const CanFrame position = encode_frame(kFrameLayouts[0], 0x3A0, 3, report);
+  EXPECT_EQ(position.id, 0x3A0U);
+  EXPECT_FALSE(position.fd);
+  EXPECT_TRUE(same(position.payload(), bytes({0x47, 0x13, 0x87, 0xD6, 0x12, 0x4C, 0xA4, 0xFE})));
+  const CanFrame attitude = encode_frame(kFrameLayouts[1], 0x3A0, 3, report);
+  EXPECT_EQ(attitude.id, 0x3A1U);
+  EXPECT_TRUE(same(attitude.payload(), bytes({0xFE, 0x13, 0x5C, 0x3D, 0x85, 0xFF, 0x2D, 0x00})));
+}
+
+// From another implementation: Python's struct and a bitwise CRC.
+TEST(PoseFrames, AreTheGoldenFrameOfCanFd) {
+  PoseReport report;
+  report.stamp_utc_ns = 1'700'000'000'123'456'789;
+  report.x_m = 1234.5678;
+  report.y_m = -89.0123;
+  report.z_m = -3.25;
+  report.roll_rad = 0.0045;
+  report.pitch_rad = -0.0123;
+  report.yaw_rad = 1.5708;
+  report.speed_x_mps = 13.89;
+  report.speed_y_mps = -0.25;
+  report.speed_z_mps = 0.015;
+  report.roll_rate_radps = 0.002;
+  report.pitch_rate_radps = -0.004;
+  report.yaw_rate_radps = 0.321;
+  report.sigma_along_m = 0.021;
+  report.sigma_cross_m = 0.009;
+  report.sigma_up_m = 0.034;
+  report.sigma_roll_rad = 0.0008;
+  report.sigma_pitch_rad = 0.0006;
+  report.sigma_yaw_rad = 0.0003;
+  report.state = 4;
+  report.time_source = 1;
+  report.weak = 1;
+  report.iterations = 12;
+  report.score = 0.7;
+  report.age_s = 0.0125;
+  const CanFrame pose = encode_frame(kFrameLayouts[kFdPoseFrameIndex], 0x3A0, 0xC8, report);
+  EXPECT_EQ(pose.id, 0x3A9U);
+  EXPECT_TRUE(pose.fd);
+  EXPECT_TRUE(pose.bit_rate_switch);
+  EXPECT_TRUE(same(pose.payload(),
+                   bytes({0x8C, 0x76, 0xC8, 0x15, 0xCD, 0x85, 0x3D, 0xFE, 0x9C, 0x97, 0x17, 0x4E, 0x61,
+                          0xBC, 0x00, 0xF5, 0x6A, 0xF2, 0xFF, 0x0C, 0x81, 0xFF, 0xFF, 0xC8, 0xAF, 0x00,
+                          0x00, 0x88, 0x1F, 0xFE, 0xFF, 0x60, 0xAF, 0xEF, 0x00, 0xDA, 0x0A, 0xCE, 0xFF,
+                          0x03, 0x00, 0x02, 0x00, 0xFC, 0xFF, 0x41, 0x01, 0x15, 0x00, 0x09, 0x00, 0x22,
+                          0x00, 0x08, 0x00, 0x06, 0x00, 0x03, 0x00, 0x94, 0x0C, 0xAF, 0x7D, 0x00})));
 }
 
 TEST(PoseFrames, DecodeToWithinHalfAStep) {
   std::mt19937_64 random(1);
-  for (const FrameLayout& layout : kFrameLayouts) {
-    for (const Signal& signal : layout.signals) {
-      const double limit = signal.scale * (std::ldexp(1.0, signal.length_bits - 1) - 1.0);
-      std::uniform_real_distribution<double> uniform(-limit, limit);
-      for (int i = 0; i < 10000; ++i) {
-        const double value = uniform(random);
-        EXPECT_NEAR(sent(signal, value), value, 0.5 * signal.scale * (1 + 1e-9)) << signal.name;
+  for (int round = 0; round < 5000; ++round) {
+    for (const FrameLayout& layout : kFrameLayouts) {
+      const PoseReport report = random_report(random, std::span(&layout, 1));
+      PoseReport received;
+      decode_frame(layout, encode_frame(layout, 0x100, 0, report).payload(), received);
+      for (const Signal& signal : layout.signals) {
+        if (const auto* number = std::get_if<double PoseReport::*>(&signal.field)) {
+          EXPECT_NEAR(received.**number, report.**number, 0.5 * signal.scale * (1 + 1e-6)) << signal.name;
+        } else if (const auto* code = std::get_if<std::uint16_t PoseReport::*>(&signal.field)) {
+          EXPECT_EQ(received.**code, report.**code) << signal.name;
+        } else {
+          EXPECT_LE(std::abs(received.stamp_utc_ns - report.stamp_utc_ns), std::llround(0.5e9 * signal.scale))
+              << signal.name;
+        }
       }
     }
   }
-}
-
-TEST(PoseFrames, SignalsDoNotDisturbEachOther) {
-  std::mt19937_64 random(2);
-  std::uniform_real_distribution<double> uniform(-3.0, 3.0);
-  for (const FrameLayout& layout : kFrameLayouts) {
-    for (int i = 0; i < 1000; ++i) {
-      std::array<double, 8> values{};
-      for (double& value : values) value = uniform(random);
-      const auto used = std::span(values).first(layout.signals.size());
-      const EncodedFrame encoded = encode_frame(layout, 0x100, 0, used);
-      for (std::size_t s = 0; s < used.size(); ++s) {
-        EXPECT_NEAR(decode_signal(layout.signals[s], encoded.frame.data), used[s],
-                    0.51 * layout.signals[s].scale);
-      }
-    }
-  }
-}
-
-TEST(PoseFrames, RoundHalfToEven) {
-  const Signal half{.name = "HALF", .start_bit = 16, .length_bits = 16, .is_signed = true, .scale = 2.0};
-  EXPECT_EQ(sent(half, 1.0), 0.0);
-  EXPECT_EQ(sent(half, 3.0), 4.0);
-  EXPECT_EQ(sent(half, 5.0), 4.0);
-  EXPECT_EQ(sent(half, -1.0), 0.0);
-  EXPECT_EQ(sent(half, -3.0), -4.0);
-}
-
-TEST(PoseFrames, ClampAndNeverWrap) {
-  const Signal& x = kPositionSignals[0];
-  EXPECT_NEAR(sent(x, 9000.0), 8388.607, 1e-9);
-  EXPECT_NEAR(sent(x, -9000.0), -8388.607, 1e-9);
-  EXPECT_NEAR(sent(x, kInfinity), 8388.607, 1e-9);
-  EXPECT_NEAR(sent(x, -1e300), -8388.607, 1e-9);
-  for (const double value : {9000.0, -9000.0, kInfinity, -kInfinity, 8388.608, -8388.608}) {
-    EXPECT_TRUE(saturates(x, value)) << value;
-  }
-  EXPECT_FALSE(saturates(x, 8388.607));
-  EXPECT_FALSE(saturates(x, -8388.607));
-}
-
-TEST(PoseFrames, NotAvailableIsAValueOfItsOwn) {
-  EXPECT_TRUE(std::isnan(sent(kPositionSignals[0], kNan)));
-  EXPECT_FALSE(saturates(kPositionSignals[0], kNan));
-  const Signal sigma{.name = "SIGMA", .start_bit = 20, .length_bits = 12, .scale = 0.001};
-  EXPECT_TRUE(std::isnan(sent(sigma, kNan)));
-  EXPECT_NEAR(sent(sigma, 100.0), 4.094, 1e-12);
-  EXPECT_EQ(sent(sigma, -1.0), 0.0);
-  EXPECT_TRUE(saturates(sigma, -1.0));
-  std::array<std::byte, 8> data{};
-  (void)encode_signal(kPositionSignals[0], kNan, data);
-  EXPECT_TRUE(same(std::span(data).subspan(2, 3), bytes({0x00, 0x00, 0x80})));
 }
 
 TEST(PoseFrames, OfOnePoseShareACounterThatCountsPoses) {
-  PoseFrameEncoder encoder(0x200);
-  E2eChecker position(kPositionFrame.data_id());
-  E2eChecker attitude(kAttitudeFrame.data_id());
-  for (int i = 0; i < 40; ++i) {
-    const PoseFrames frames = encoder.encode(ndt::make_pose({i * 1.0, -2.0, 3.0}, {0.01, -0.02, 0.3}));
-    EXPECT_EQ(frames.frames[0].id, 0x200U);
-    EXPECT_EQ(frames.frames[1].id, 0x201U);
-    EXPECT_EQ(frames.frames[0].data[1] & std::byte{0x0F}, std::byte{static_cast<unsigned char>(i % 15)});
-    EXPECT_EQ(position.check(frames.frames[0].data), E2eStatus::ok);
-    EXPECT_EQ(attitude.check(frames.frames[1].data), E2eStatus::ok);
-    EXPECT_NEAR(decode_signal(kPositionSignals[0], frames.frames[0].data), i, 1e-9);
-    EXPECT_NEAR(decode_signal(kAttitudeSignals[0], frames.frames[1].data), 0.3, 1e-9);
-    EXPECT_NEAR(decode_signal(kAttitudeSignals[1], frames.frames[1].data), -0.02, 1e-9);
-    EXPECT_NEAR(decode_signal(kAttitudeSignals[2], frames.frames[1].data), 0.01, 1e-9);
-    EXPECT_FALSE(frames.saturated);
+  for (const bool fd : {false, true}) {
+    PoseFrameEncoder encoder(0x200, fd);
+    const unsigned end = fd ? 256 : 15;
+    for (unsigned i = 0; i < 300; ++i) {
+      const PoseFrames sent = encoder.encode(report_at(i));
+      ASSERT_EQ(sent.count, pose_layouts(fd).size() + (i == 0 ? 1 : 0));
+      for (std::size_t f = 0; f < pose_layouts(fd).size(); ++f) {
+        const CanFrame& frame = sent.frames[f];
+        EXPECT_EQ(frame.id, 0x200U + pose_layouts(fd)[f].id_offset);
+        const unsigned counter = fd ? std::to_integer<unsigned>(frame.data[2])
+                                    : std::to_integer<unsigned>(frame.data[1] & std::byte{0x0F});
+        EXPECT_EQ(counter, i % end);
+      }
+    }
   }
-  EXPECT_TRUE(encoder.encode(ndt::make_pose({1e5, 0, 0}, {})).saturated);
 }
 
-TEST(PoseFrames, YawOfHalfATurnIsPositive) {
-  ndt::Pose backwards = ndt::Pose::Identity();
-  backwards.linear() << -1, 0.0, 0, -0.0, -1, 0, 0, 0, 1;  // atan2(-0, -1) is -pi
-  const PoseFrames frames = PoseFrameEncoder(0x200).encode(backwards);
-  EXPECT_NEAR(decode_signal(kAttitudeSignals[0], frames.frames[1].data), 3.1416, 1e-9);
+TEST(PoseFrames, TheMapIsNamedOnceASecondAndAgainAfterTheClockWasSetBack) {
+  PoseFrameEncoder encoder(0x200, false);
+  const auto names_map = [&](std::int64_t ms) {
+    return encoder.encode(report_at(0.0, ms * 1'000'000)).all().back().id == 0x208;
+  };
+  EXPECT_TRUE(names_map(5'000));
+  EXPECT_FALSE(names_map(5'999));
+  EXPECT_TRUE(names_map(6'000));
+  EXPECT_FALSE(names_map(6'100));
+  EXPECT_TRUE(names_map(1'000));
+  EXPECT_FALSE(names_map(1'100));
+}
+
+TEST(PoseFrames, SayThatAValueWasClamped) {
+  for (const bool fd : {false, true}) {
+    PoseFrameEncoder encoder(0x200, fd);
+    const FrameLayout& status = fd ? kFrameLayouts[kFdPoseFrameIndex] : kFrameLayouts[4];
+    for (const double x_m : {0.0, 1e6}) {
+      const PoseFrames sent = encoder.encode(report_at(x_m));
+      PoseReport received;
+      decode_frame(status, sent.frames[fd ? 0 : 4].payload(), received);
+      EXPECT_EQ(sent.saturated, x_m != 0.0);
+      EXPECT_EQ(received.saturated, x_m != 0.0 ? 1 : 0);
+    }
+  }
+}
+
+TEST(PoseReport, YawOfHalfATurnIsPositive) {
+  ndt::Fix fix = fix_at({0.0, 0.0, 0.0}, {});
+  fix.at.pose.linear() << -1, 0.0, 0, -0.0, -1, 0, 0, 0, 1;  // atan2(-0, -1) is -pi
+  EXPECT_NEAR(report_of(fix, drivers::TimeSource::sensor, true).yaw_rad, M_PI, 1e-12);
+}
+
+TEST(PoseReport, SigmasFollowTheHeading) {
+  ndt::Fix fix = fix_at({0.0, 0.0, 0.0}, {.yaw_rad = M_PI / 2});
+  fix.covariance.diagonal() << 0.01, 0.04, 0.09, 1e-4, 4e-4, 9e-4;
+  const PoseReport report = report_of(fix, drivers::TimeSource::sensor, true);
+  EXPECT_NEAR(report.sigma_along_m, 0.2, 1e-12);
+  EXPECT_NEAR(report.sigma_cross_m, 0.1, 1e-12);
+  EXPECT_NEAR(report.sigma_up_m, 0.3, 1e-12);
+  EXPECT_NEAR(report.sigma_roll_rad, 0.02, 1e-12);
+  EXPECT_NEAR(report.sigma_pitch_rad, 0.01, 1e-12);
+  EXPECT_NEAR(report.sigma_yaw_rad, 0.03, 1e-12);
+}
+
+TEST(PoseReport, OfAPoseNotToBeUsedHasNoNumbersButItsStateAndTime) {
+  ndt::Fix fix = fix_at({1, 2, 3}, {});
+  fix.state = ndt::State::lost;
+  const PoseReport report = report_of(fix, drivers::TimeSource::receive, false);
+  for (const double value : {report.x_m, report.y_m, report.z_m, report.yaw_rad, report.speed_x_mps,
+                             report.yaw_rate_radps, report.sigma_along_m, report.sigma_yaw_rad}) {
+    EXPECT_TRUE(std::isnan(value));
+  }
+  EXPECT_EQ(report.state, 2);
+  EXPECT_EQ(report.time_source, 1);
+  EXPECT_EQ(report.partial_sweep, 1);
+  EXPECT_EQ(report.stamp_utc_ns, fix.at.stamp_utc_ns);
+}
+
+TEST(PoseReport, NamesTheWeakAxes) {
+  ndt::Fix fix = fix_at({0.0, 0.0, 0.0}, {});
+  EXPECT_EQ(report_of(fix, drivers::TimeSource::sensor, true).weak, 0);
+  fix.match.weak.at[0].axis = ndt::Axis::longitudinal;
+  fix.match.weak.at[1].axis = ndt::Axis::yaw;
+  fix.match.weak.count = 2;
+  const PoseReport report = report_of(fix, drivers::TimeSource::sensor, true);
+  EXPECT_EQ(report.weak, 1);
+  EXPECT_EQ(report.weak_axes, 0b100001);
 }
 
 }  // namespace

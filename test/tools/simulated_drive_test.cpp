@@ -183,27 +183,30 @@ TEST_F(SimulatedDrive, WithAWindowOfTheMapThePosesAreThoseOfTheWholeMap) {
 }
 
 TEST_F(SimulatedDrive, SendsItsPosesAsProtectedFrames) {
-  ASSERT_EQ(replay({"--trajectory", path("t.tum"), "--candump", path("t.log")}).code, 0);
-  const auto poses = platform::read_tum(path("t.tum"));
-  std::ifstream log(path("t.log"));
-  std::string line;
-  for (const ndt::StampedPose& pose : poses) {
-    const ndt::RollPitchYaw angles = ndt::to_roll_pitch_yaw(pose.pose.linear());
-    const auto expect = [&](const platform::FrameLayout& layout, std::vector<double> values) {
-      ASSERT_TRUE(std::getline(log, line));
-      const auto logged = platform::parse_candump_line(line);
-      ASSERT_TRUE(logged.has_value()) << line;
-      EXPECT_EQ(logged->frame.id, 0x3A0U + layout.id_offset);
-      EXPECT_EQ(logged->stamp_utc_ns / 1000, pose.stamp_utc_ns / 1000);
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        EXPECT_NEAR(platform::decode_signal(layout.signals[i], logged->frame.data), values[i],
-                    0.51 * layout.signals[i].scale);
-      }
-    };
-    expect(platform::kPositionFrame, {pose.pose.translation().x(), pose.pose.translation().y()});
-    expect(platform::kAttitudeFrame, {angles.yaw_rad, angles.pitch_rad, angles.roll_rad});
+  std::ofstream(path("fd.toml")) << text_of(path("config.toml")) << "\n[can]\nfd = true\n";
+  for (const std::string config : {"config.toml", "fd.toml"}) {
+    ASSERT_EQ(landfix({"replay", "--config", path(config), "--pcap", path("capture.pcap"), "--map",
+                       path("map.ndt"), "--trajectory", path("t.tum"), "--candump", path("t.log")})
+                  .code,
+              0);
+    const auto poses = platform::read_tum(path("t.tum"));
+    const auto outcome = landfix({"can", "decode", path("t.log"), "--json"});
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    const auto decoded = nlohmann::json::parse(outcome.out);
+    EXPECT_TRUE(decoded["faults"].empty());
+    ASSERT_EQ(decoded["poses"].size(), poses.size());
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const nlohmann::json& sent = decoded["poses"][i];
+      const ndt::RollPitchYaw angles = ndt::to_roll_pitch_yaw(poses[i].pose.linear());
+      EXPECT_NEAR(sent["x_m"].get<double>(), poses[i].pose.translation().x(), 0.00051);
+      EXPECT_NEAR(sent["y_m"].get<double>(), poses[i].pose.translation().y(), 0.00051);
+      EXPECT_NEAR(sent["z_m"].get<double>(), poses[i].pose.translation().z(), 0.0051);
+      EXPECT_NEAR(sent["yaw_deg"].get<double>(), angles.yaw_rad / ndt::kRadians_per_deg, 0.003);
+      EXPECT_NEAR(sent["pitch_deg"].get<double>(), angles.pitch_rad / ndt::kRadians_per_deg, 0.003);
+      EXPECT_NEAR(sent["roll_deg"].get<double>(), angles.roll_rad / ndt::kRadians_per_deg, 0.003);
+      EXPECT_LE(std::abs(sent["stamp_utc_ns"].get<std::int64_t>() - poses[i].stamp_utc_ns), 5'000);
+    }
   }
-  EXPECT_FALSE(std::getline(log, line));
 }
 
 /// A capture with garbage between its packets: on the sensor's port, of its size and of others, and
