@@ -1,6 +1,5 @@
 #include "platform/pipeline.hpp"
 
-
 #include "platform/monotonic_clock.hpp"
 #include "platform/pose_report.hpp"
 
@@ -83,10 +82,10 @@ SweepResult Pipeline::localize(const drivers::Sweep& sweep) noexcept {
   const ndt::Fix fix = localizer_.localize(points_m, sweep.end_utc_ns());
   record(Stage::match, monotonic_ns() - began_ns);
 
-  const SweepResult result{.fix = fix,
-                           .points_filtered = points_m.size(),
-                           .complete = sweep.complete(),
-                           .time_source = sweep.time_source()};
+  SweepResult result{.fix = fix,
+                     .points_filtered = points_m.size(),
+                     .complete = sweep.complete(),
+                     .time_source = sweep.time_source()};
   began_ns = monotonic_ns();
   publish(result);
   record(Stage::publish, monotonic_ns() - began_ns);

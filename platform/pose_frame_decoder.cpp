@@ -47,17 +47,23 @@ DecodedFrame PoseFrameDecoder::decode(const CanFrame& frame, std::int64_t stamp_
   if (index == kFdPoseFrameIndex) {
     decode_frame(*layout, frame.payload(), result.pose.emplace(map_));
   } else {
-    add_to_pose(index, frame, result);
+    add_to_pose(index, frame, stamp_utc_ns, result);
   }
   return result;
 }
 
-void PoseFrameDecoder::add_to_pose(std::size_t index, const CanFrame& frame, DecodedFrame& result) noexcept {
-  if (result.check.counter != counter_ || has(index)) {
+void PoseFrameDecoder::add_to_pose(std::size_t index, const CanFrame& frame, std::int64_t stamp_utc_ns,
+                                   DecodedFrame& result) noexcept {
+  const bool is_of_next =
+      result.check.counter != counter_ || has(index) || stamp_utc_ns - begun_utc_ns_ > kLongestPose_ns;
+  if (is_of_next) {
     result.frames_missing = frames_missing();
     seen_ = 0;
   }
-  if (seen_ == 0) report_ = map_;
+  if (seen_ == 0) {
+    report_ = map_;
+    begun_utc_ns_ = stamp_utc_ns;
+  }
   counter_ = result.check.counter;
   result.out_of_order = seen_ >> index != 0;
   seen_ |= 1U << index;

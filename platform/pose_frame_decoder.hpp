@@ -34,6 +34,9 @@ class PoseFrameDecoder {
  public:
   /// Even an idle sender says its status twice a second.
   static constexpr std::int64_t kTimeout_ns = 500'000'000;
+  /// A pose's frames follow each other at once. At 100 poses a second a counter comes again after 150 ms:
+  /// what has waited for longer than this is not of the same pose, whatever its counter says.
+  static constexpr std::int64_t kLongestPose_ns = 100'000'000;
 
   explicit PoseFrameDecoder(std::uint32_t base_id) noexcept;
 
@@ -47,7 +50,8 @@ class PoseFrameDecoder {
   [[nodiscard]] std::size_t frames_missing() const noexcept;
 
  private:
-  void add_to_pose(std::size_t index, const CanFrame& frame, DecodedFrame& result) noexcept;
+  void add_to_pose(std::size_t index, const CanFrame& frame, std::int64_t stamp_utc_ns,
+                   DecodedFrame& result) noexcept;
   [[nodiscard]] bool has(std::size_t index) const noexcept { return (seen_ >> index & 1U) != 0; }
 
   std::uint32_t base_id_;
@@ -58,6 +62,7 @@ class PoseFrameDecoder {
   PoseReport report_;
   PoseReport map_;  ///< the last LOC_MAP
   std::uint8_t counter_ = 0;
+  std::int64_t begun_utc_ns_ = 0;
   unsigned seen_ = 0;  ///< a bit for each of its frames that is there
 };
 

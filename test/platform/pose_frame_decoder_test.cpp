@@ -209,6 +209,19 @@ TEST(PoseFrameDecoder, GivesNoPoseOfFramesThatDoNotBelongTogether) {
             2U);  // the next position ends an incomplete pose, the next attitude counts one lost
 }
 
+// The counter alone would not tell: of each kind of frame none, or a full turn of the counter, is missing.
+TEST(PoseFrameDecoder, FramesATurnOfTheCounterApartMakeNoPose) {
+  const PoseReport report;
+  PoseFrameDecoder decoder(kBaseId);
+  const auto receive_one = [&](std::size_t index, std::uint8_t counter, std::int64_t after_ns) {
+    return decoder.decode(encode_frame(kFrameLayouts[index], kBaseId, counter, report), kStart_ns + after_ns);
+  };
+  for (std::size_t i = 0; i < kClassicPoseFrames; ++i) (void)receive_one(i, 2, 0);
+  EXPECT_FALSE(receive_one(0, 3, 10'000'000).has_fault());
+  EXPECT_EQ(receive_one(1, 3, 160'000'000).frames_missing, 5U);
+  for (std::size_t i = 2; i < kClassicPoseFrames; ++i) EXPECT_FALSE(receive_one(i, 3, 160'000'000).pose);
+}
+
 TEST(PoseFrameDecoder, GoesOnAfterALoss) {
   std::vector<CanFrame> frames = drive(40, true);
   std::erase_if(frames, is_map);
