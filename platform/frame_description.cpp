@@ -12,6 +12,7 @@ namespace landfix::platform {
 namespace {
 
 constexpr int kDefaultPeriod_ms = 100;  // of poses, CanSettings::rate_hz
+constexpr int kStandardFd = 14;         // of the attribute VFrameFormat
 constexpr std::string_view kSender = "LANDFIX";
 
 /// Of the end-to-end protection; its name is the frame's and this.
@@ -98,7 +99,7 @@ void add_comments(std::string& dbc, const FrameLayout& layout, std::uint32_t id)
 void add_attributes(std::string& dbc, const FrameLayout& layout, std::uint32_t id) {
   dbc += fmt::format("BA_ \"GenMsgCycleTime\" BO_ {} {};\n", id,
                      layout.period_ms != 0 ? int{layout.period_ms} : kDefaultPeriod_ms);
-  if (layout.fd) dbc += fmt::format("BA_ \"VFrameFormat\" BO_ {} 14;\n", id);
+  if (layout.fd) dbc += fmt::format("BA_ \"VFrameFormat\" BO_ {} {};\n", id, kStandardFd);
   for (const Signal& signal : layout.signals) {
     if (!signal.is_code()) {
       dbc += fmt::format("BA_ \"GenSigStartValue\" SG_ {} {} {};\n", id, signal.name, start_value(signal));
@@ -130,12 +131,11 @@ std::string to_dbc(std::uint32_t base_id) {
       "BA_DEF_ \"BusType\" STRING ;\n"
       "BA_DEF_ BO_ \"GenMsgCycleTime\" INT 0 65535;\n"
       "BA_DEF_ BO_ \"GenMsgSendType\" ENUM \"Cyclic\";\n"
-      "BA_DEF_ BO_ \"VFrameFormat\" ENUM "
-      "\"StandardCAN\",\"ExtendedCAN\",\"reserved\",\"reserved\",\"reserved\","
-      "\"reserved\",\"reserved\",\"reserved\",\"reserved\",\"reserved\",\"reserved\",\"reserved\","
-      "\"reserved\","
-      "\"reserved\",\"StandardCAN_FD\",\"ExtendedCAN_FD\";\n"
-      "BA_DEF_ SG_ \"GenSigStartValue\" FLOAT -1e20 1e20;\n"
+      "BA_DEF_ BO_ \"VFrameFormat\" ENUM \"StandardCAN\",\"ExtendedCAN\"";
+  for (int i = 2; i < kStandardFd; ++i) dbc += ",\"reserved\"";
+  dbc +=
+      ",\"StandardCAN_FD\",\"ExtendedCAN_FD\";\n"
+      "BA_DEF_ SG_ \"GenSigStartValue\" FLOAT -9223372036854775808 18446744073709551615;\n"
       "BA_DEF_DEF_ \"BusType\" \"CAN FD\";\n"
       "BA_DEF_DEF_ \"GenMsgCycleTime\" 0;\n"
       "BA_DEF_DEF_ \"GenMsgSendType\" \"Cyclic\";\n"

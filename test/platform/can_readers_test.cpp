@@ -70,9 +70,9 @@ class CanReaders : public testing::TestWithParam<bool> {
       for (const std::byte byte : frames_[i].payload()) {
         data += fmt::format("{:02X}", std::to_integer<unsigned>(byte));
       }
-      text += fmt::format("{:.6f} {:X} {:d} {:d} {}\n",
-                          static_cast<double>((stamps_utc_ns_[i] - start_ns) / 1000) * 1e-6, frames_[i].id,
-                          frames_[i].fd, frames_[i].bit_rate_switch, data);
+      const std::int64_t stamp_us = (stamps_utc_ns_[i] - start_ns) / 1000;
+      text += fmt::format("{}.{:06} {:X} {:d} {:d} {}\n", stamp_us / 1'000'000, stamp_us % 1'000'000,
+                          frames_[i].id, frames_[i].fd, frames_[i].bit_rate_switch, data);
     }
     return text;
   }
@@ -114,9 +114,9 @@ TEST_P(CanReaders, CandiedReadsEverySignalThroughTheDbc) {
   std::string value;
   while (lines >> frame_name >> signal_name >> value) {
     ASSERT_LT(frame, frames_.size());
-    const auto layout = std::find_if(kFrameLayouts.begin(), kFrameLayouts.end(), [&](const FrameLayout& l) {
-      return frames_[frame].id == 0x3A0U + l.id_offset;
-    });
+    const auto* const layout =
+        std::find_if(kFrameLayouts.begin(), kFrameLayouts.end(),
+                     [&](const FrameLayout& l) { return frames_[frame].id == 0x3A0U + l.id_offset; });
     ASSERT_EQ(frame_name, layout->name) << signal_name << ' ' << value;
     const auto signal = std::find_if(layout->signals.begin(), layout->signals.end(),
                                      [&](const Signal& s) { return s.name == signal_name; });
