@@ -19,8 +19,7 @@ struct Header {
 // In profile 11 the start and final values of the CRC library's two calls cancel: both are 0 in effect.
 // Variant C takes a 0 in place of the data id's high byte, of which the frame holds a nibble.
 Header header_11c(std::span<const std::byte> payload, std::uint16_t data_id, std::uint8_t counter) noexcept {
-  const std::array id{static_cast<std::byte>(data_id & 0xFFU), std::byte{0}};  // variant C: 0 in place of the
-                                                                               // high byte
+  const std::array id{static_cast<std::byte>(data_id & 0xFFU), std::byte{0}};
   const std::array nibbles{static_cast<std::byte>((data_id >> 8 & 0x0FU) << 4 | (counter & 0x0FU))};
   const std::uint8_t crc = crc8(payload, crc8(nibbles, crc8(id)));
   return {.bytes = {std::byte{crc}, nibbles[0]}, .size = 2};
