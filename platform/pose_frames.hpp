@@ -26,7 +26,9 @@ struct PoseFrames {
   std::size_t count = 0;
   bool saturated = false;  ///< a value was beyond what its signal can hold
 
-  [[nodiscard]] std::span<const CanFrame> all() const noexcept { return std::span(frames).first(count); }
+  [[nodiscard]] std::span<const CanFrame> all() const& noexcept { return std::span(frames).first(count); }
+  /// The frames would be gone.
+  [[nodiscard]] std::span<const CanFrame> all() const&& noexcept = delete;
 };
 
 /// Counts on from pose to pose: the frames of one pose share one counter. LOC_MAP, once a second, has its

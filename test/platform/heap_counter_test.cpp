@@ -113,8 +113,10 @@ TEST_F(HeapCounterTest, SendingAPoseIntoALogDoesNotTouchTheHeap) {
   EXPECT_EQ(calls_of([&] {
               for (int i = 0; i < 5000; ++i) {
                 const PoseReport report = report_of({}, drivers::TimeSource::sensor, true);
-                for (const CanFrame& frame : fd_encoder.encode(report).all()) (void)log.send(frame, 0);
-                for (const CanFrame& frame : encoder.encode(report).all()) {
+                for (const PoseFrames frames = fd_encoder.encode(report);
+                     const CanFrame& frame : frames.all())
+                  (void)log.send(frame, 0);
+                for (const PoseFrames frames = encoder.encode(report); const CanFrame& frame : frames.all()) {
                   (void)decoder.decode(frame, 0);
                   EXPECT_TRUE(log.send(frame, 1'700'000'000'000'000'000 + i));
                 }

@@ -57,7 +57,7 @@ TEST(PoseFrameDecoder, GivesBackEveryPose) {
     for (int i = 0; i < 1000; ++i) {
       const PoseReport report = test::random_report(random, pose_layouts(fd));
       std::optional<PoseReport> received;
-      for (const CanFrame& frame : encoder.encode(report).all()) {
+      for (const PoseFrames frames = encoder.encode(report); const CanFrame& frame : frames.all()) {
         const DecodedFrame decoded = decoder.decode(frame, kStart_ns);
         EXPECT_FALSE(decoded.has_fault());
         if (decoded.pose) received = decoded.pose;
@@ -80,7 +80,7 @@ TEST(PoseFrameDecoder, KnowsTheMapOfEachPose) {
   report.map_hash = 0xBEEF;
   std::optional<PoseReport> last;
   for (int i = 0; i < 2; ++i) {
-    for (const CanFrame& frame : encoder.encode(report).all()) {
+    for (const PoseFrames frames = encoder.encode(report); const CanFrame& frame : frames.all()) {
       const DecodedFrame decoded = decoder.decode(frame, kStart_ns);
       if (decoded.pose) last = decoded.pose;
     }
@@ -191,9 +191,10 @@ TEST(PoseFrameDecoder, SeesFourteenPosesMissingAtOnce) {
     PoseFrameEncoder encoder(kBaseId, fd);
     PoseFrameDecoder decoder(kBaseId);
     for (int skipped = 1; skipped <= 14; ++skipped) {
-      for (const CanFrame& frame : encoder.encode({}).all()) (void)decoder.decode(frame, kStart_ns);
+      for (const PoseFrames frames = encoder.encode({}); const CanFrame& frame : frames.all())
+        (void)decoder.decode(frame, kStart_ns);
       for (int i = 0; i < skipped; ++i) (void)encoder.encode({});
-      for (const CanFrame& frame : encoder.encode({}).all()) {
+      for (const PoseFrames frames = encoder.encode({}); const CanFrame& frame : frames.all()) {
         EXPECT_TRUE(decoder.decode(frame, kStart_ns).has_fault() || is_map(frame)) << skipped;
       }
     }

@@ -125,7 +125,8 @@ TEST(PoseFrames, OfOnePoseShareACounterThatCountsPoses) {
 TEST(PoseFrames, TheMapIsNamedOnceASecondAndAgainAfterTheClockWasSetBack) {
   PoseFrameEncoder encoder(0x200, false);
   const auto names_map = [&](std::int64_t ms) {
-    return encoder.encode(report_at(0.0, ms * 1'000'000)).all().back().id == 0x208;
+    const PoseFrames frames = encoder.encode(report_at(0.0, ms * 1'000'000));
+    return frames.all().back().id == 0x208;
   };
   EXPECT_TRUE(names_map(5'000));
   EXPECT_FALSE(names_map(5'999));

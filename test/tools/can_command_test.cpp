@@ -36,7 +36,8 @@ class CanCommand : public testing::Test {
       report.y_m = -1.5;
       report.yaw_rad = 0.5;
       report.state = 5;
-      for (const platform::CanFrame& frame : encoder.encode(report).all()) {
+      for (const platform::PoseFrames frames = encoder.encode(report);
+           const platform::CanFrame& frame : frames.all()) {
         EXPECT_TRUE(log.send(frame, report.stamp_utc_ns));
       }
     }
