@@ -44,9 +44,10 @@ struct Arguments {
   return list;
 }
 
-[[nodiscard]] std::string weak_to_text(const ndt::WeakDirections& weak) {
+[[nodiscard]] std::string held_to_text(const ndt::MatchResult& result) {
+  if (result.points_matched == 0) return "none: the map has nothing near";
   std::string text;
-  for (const ndt::WeakDirection& direction : weak.all()) {
+  for (const ndt::WeakDirection& direction : result.weak.all()) {
     text += fmt::format("{}{} (1 sigma {:.3f} {})", text.empty() ? "" : ", ", ndt::to_string(direction.axis),
                         sigma_of(direction), direction.axis < ndt::Axis::roll ? "m" : "deg");
   }
@@ -108,8 +109,8 @@ void print_text(const ndt::MatchResult& result, double fitness_score, double mat
       angles.yaw_rad / kRadians_per_deg, sigma(0), sigma(1), sigma(2), sigma(3) / kRadians_per_deg,
       sigma(4) / kRadians_per_deg, sigma(5) / kRadians_per_deg, result.iterations, fitness_score,
       result.transformation_probability, result.nearest_voxel_likelihood,
-      result.no_ground_nearest_voxel_likelihood, result.points, result.points_matched,
-      weak_to_text(result.weak), explain(ndt::judge(result, {})), match_ms);
+      result.no_ground_nearest_voxel_likelihood, result.points, result.points_matched, held_to_text(result),
+      explain(ndt::judge(result, {})), match_ms);
 }
 
 void align(const Arguments& arguments) {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include <CLI/CLI.hpp>
 
@@ -28,5 +30,20 @@ void show_progress(std::string_view text);
 
 /// The option --json, the same in every command: one object on stdout and nothing else.
 void add_json_option(CLI::App& command, bool& json);
+
+/// For an option whose value is an enumerator: takes its name; another is an error that lists them.
+template <class Enum>
+[[nodiscard]] CLI::Validator one_of(const std::map<std::string, Enum>& names) {
+  return {[names](std::string& text) {
+            if (const auto found = names.find(text); found != names.end()) {
+              text = std::to_string(static_cast<std::underlying_type_t<Enum>>(found->second));
+              return std::string();
+            }
+            std::string error = "'" + text + "' is none of";
+            for (const auto& [name, value] : names) error += ' ' + name;
+            return error;
+          },
+          ""};
+}
 
 }  // namespace landfix::tools

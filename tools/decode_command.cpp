@@ -209,7 +209,7 @@ void add_decode_command(CLI::App& app) {
       ->required()
       ->type_name("DIR");
   command.add_option("--format", arguments->format, "of the files")
-      ->transform(CLI::CheckedTransformer(formats).description(""))
+      ->transform(one_of(formats))
       ->type_name("pcd|csv")
       ->default_str("pcd");
   command

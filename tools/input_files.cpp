@@ -64,7 +64,7 @@ void add_filter_options(CLI::App& command, ndt::FilterSettings& filter) {
   std::map<std::string, ndt::FilterKind> kinds;
   for (const std::string_view name : ndt::kFilterNames) kinds.emplace(name, ndt::find_filter(name).value());
   command.add_option("--filter", filter.kind, "what is kept of the scan: voxel, ring or entropy")
-      ->transform(CLI::CheckedTransformer(kinds).description(""))
+      ->transform(one_of(kinds))
       ->type_name("KIND")
       ->default_str("voxel");
   command.add_option("--entropy-share", filter.entropy_share, "share of the cells that entropy keeps")

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "ndt/lattice.hpp"
 #include "ndt/pcd.hpp"
 #include "ndt/voxel_map.hpp"
 #include "ndt/voxel_map_builder.hpp"
@@ -47,6 +48,23 @@ void add_cloud(ndt::VoxelMapBuilder& builder, const std::filesystem::path& path,
   });
 }
 
+/// Throws UsageError where the map would take the place of one of the clouds.
+void spare_clouds(const std::vector<std::filesystem::path>& clouds, const std::string& output) {
+  if (!std::filesystem::exists(output)) return;
+  for (const std::filesystem::path& cloud : clouds) {
+    if (std::filesystem::equivalent(cloud, output)) {
+      throw UsageError(fmt::format("--output {} is one of the clouds, which would be lost", output));
+    }
+  }
+}
+
+/// Throws UsageError where the lattice does not reach.
+void check_origin(const Eigen::Vector3d& origin_m, double resolution_m) {
+  if (ndt::has_cell(origin_m / resolution_m)) return;
+  throw UsageError(fmt::format("--origin: a map with cells of {} m reaches to {:.0f} m from zero",
+                               resolution_m, ndt::kMaxCell * resolution_m));
+}
+
 void make_map(const Arguments& arguments) {
   const auto began = std::chrono::steady_clock::now();
   std::vector<std::filesystem::path> files;
@@ -55,6 +73,8 @@ void make_map(const Arguments& arguments) {
     files.insert(files.end(), found.begin(), found.end());
   }
   const Eigen::Vector3d origin_m(arguments.origin_m[0], arguments.origin_m[1], arguments.origin_m[2]);
+  spare_clouds(files, arguments.output);
+  check_origin(origin_m, arguments.resolution_m);
   ndt::VoxelMapBuilder builder(arguments.resolution_m, arguments.capacity);
   for (std::size_t i = 0; i < files.size(); ++i) {
     const std::string progress = fmt::format("reading {} of {} clouds", i + 1, files.size());

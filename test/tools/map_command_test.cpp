@@ -129,6 +129,27 @@ TEST_F(MapCommand, AnOriginIsAddedWithoutLoss) {
   EXPECT_EQ(ndt::VoxelMap(relative.bytes()).voxels().size(), 100U);
 }
 
+TEST_F(MapCommand, NeverTakesThePlaceOfACloud) {
+  write("a.pcd", ground_from(0, 0));
+  std::filesystem::create_symlink(path("a.pcd"), path("b.pcd"));
+  const auto bytes = std::filesystem::file_size(path("a.pcd"));
+  for (const std::string& output : {path("a.pcd"), path("b.pcd")}) {
+    const test::Outcome outcome = test::run_landfix({"map", "--pcd", path("a.pcd"), "--output", output});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.error, HasSubstr("is one of the clouds, which would be lost"));
+  }
+  EXPECT_EQ(std::filesystem::file_size(path("a.pcd")), bytes);
+}
+
+TEST_F(MapCommand, RefusesAnOriginWhereNoCellIs) {
+  write("a.pcd", ground_from(0, 0));
+  for (const std::string origin : {"1e12,0,0", "0,nan,0"}) {
+    const test::Outcome outcome = map({path("a.pcd"), "--origin", origin});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.error, HasSubstr("--origin"));
+  }
+}
+
 TEST_F(MapCommand, AFullMapIsAnErrorThatSaysWhatToDo) {
   write("a.pcd", ground_from(0, 0));
   const test::Outcome outcome = map({path("a.pcd"), "--capacity", "99"});
