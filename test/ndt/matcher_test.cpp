@@ -216,20 +216,37 @@ TEST(PairGroups, HaveRoomForTheCandidatesOfAMapThatIsFullOfVoxels) {
 }
 
 TEST(PairKernel, EveryInstructionSetGivesTheSame) {
-  const Yard yard(7);
   std::mt19937_64 random(17);
-  const Pose pose = yard.truth * random_pose(random, 0.5, 0.05);
-  const Objective best = evaluate_scan(yard.map, yard.scan, pose, Covariance::sharp);
   std::size_t compared = 0;
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    expect_same(evaluate_scan(yard.map, yard.scan, pose, Covariance::sharp), best, 1e-5);
-    ++compared;
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    const Yard yard(seed);
+    for (const Covariance covariance : {Covariance::wide, Covariance::sharp}) {
+      const Pose pose = yard.truth * random_pose(random, 1.0, 0.1);
+      const auto voxels = reference_voxels(yard.map, covariance);
+      const auto pairs = find_pairs(voxels, yard.scan, pose, kResolution_m);
+      const ReferenceObjective scale = evaluate_pairs(voxels, yard.scan, pairs, pose, kConstants);
+      const Objective best = evaluate_scan(yard.map, yard.scan, pose, covariance);
+      for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        hwy::SetSupportedTargetsForTest(target);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        const Objective other = evaluate_scan(yard.map, yard.scan, pose, covariance);
+        EXPECT_EQ(other.pairs, best.pairs);
+        EXPECT_NEAR(other.score, best.score, 1e-5 * scale.absolute_score);
+        const Matrix6 difference = (other.definite - other.curvature) - (best.definite - best.curvature);
+        for (int row = 0; row < 6; ++row) {
+          EXPECT_NEAR(other.gradient[row], best.gradient[row], 1e-5 * scale.absolute_gradient[row]);
+          for (int column = 0; column < 6; ++column) {
+            EXPECT_NEAR(difference(row, column), 0.0, 1e-5 * scale.absolute_hessian(row, column))
+                << hwy::TargetName(target) << ' ' << row << ' ' << column;
+          }
+        }
+        ++compared;
+      }
+      hwy::SetSupportedTargetsForTest(0);
+      hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    }
   }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  EXPECT_GE(compared, HWY_ARCH_ARM ? 1U : 2U);  // 64-bit Arm has but one
+  EXPECT_GE(compared, 16 * (HWY_ARCH_ARM ? 1U : 2U));  // 64-bit Arm has but one
 }
 
 TEST(PairKernel, ComputesInVectorsOfTheProcessor) {
