@@ -41,8 +41,10 @@ class FrameSink {
   FrameSink& operator=(const FrameSink&) = delete;
   virtual ~FrameSink() = default;
 
-  /// Never waits; false if the frame could not be taken. `stamp_utc_ns`: when it is sent.
-  [[nodiscard]] virtual bool send(const CanFrame& frame, std::int64_t stamp_utc_ns) noexcept = 0;
+  /// Frames that belong together, in their order. Never waits; how many were taken, the first ones: the rest
+  /// is dropped. `stamp_utc_ns`: when they are sent.
+  [[nodiscard]] virtual std::size_t send(std::span<const CanFrame> group,
+                                         std::int64_t stamp_utc_ns) noexcept = 0;
 };
 
 }  // namespace landfix::platform

@@ -95,7 +95,13 @@ CandumpLog::CandumpLog(std::filesystem::path path, std::string interface)
   }
 }
 
-bool CandumpLog::send(const CanFrame& frame, std::int64_t stamp_utc_ns) noexcept {
+std::size_t CandumpLog::send(std::span<const CanFrame> group, std::int64_t stamp_utc_ns) noexcept {
+  std::size_t taken = 0;
+  while (taken < group.size() && write(group[taken], stamp_utc_ns)) ++taken;
+  return taken;
+}
+
+bool CandumpLog::write(const CanFrame& frame, std::int64_t stamp_utc_ns) noexcept {
   if (failed_) return false;
   try {
     std::array<char, 192> line;

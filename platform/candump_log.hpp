@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -24,13 +25,16 @@ class CandumpLog final : public FrameSink {
   /// `interface`: the name that the lines carry. Throws std::runtime_error.
   CandumpLog(std::filesystem::path path, std::string interface);
 
-  /// Does not allocate; stamps are cut to microseconds. False once the disk has refused a write.
-  [[nodiscard]] bool send(const CanFrame& frame, std::int64_t stamp_utc_ns) noexcept override;
+  /// Does not allocate; stamps are cut to microseconds. Takes nothing more once the disk has refused a write.
+  [[nodiscard]] std::size_t send(std::span<const CanFrame> group,
+                                 std::int64_t stamp_utc_ns) noexcept override;
 
   /// Throws std::runtime_error where a write has failed.
   void commit();
 
  private:
+  [[nodiscard]] bool write(const CanFrame& frame, std::int64_t stamp_utc_ns) noexcept;
+
   AtomicFile file_;
   std::string interface_;
   bool failed_ = false;

@@ -101,9 +101,7 @@ void Pipeline::publish(const SweepResult& result) noexcept {
   report.map_hash = settings_.map_hash;
   report.frames_version = kFramesVersion;
   const PoseFrames encoded = encoder_.encode(report);
-  for (const CanFrame& frame : encoded.all()) {
-    if (!bus_->send(frame, result.fix.at.stamp_utc_ns)) ++counters_.frames_dropped;
-  }
+  counters_.frames_dropped += encoded.count - bus_->send(encoded.all(), result.fix.at.stamp_utc_ns);
   if (encoded.saturated) ++counters_.frames_saturated;
 }
 

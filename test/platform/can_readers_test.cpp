@@ -16,6 +16,7 @@
 #include "platform/candump_log.hpp"
 #include "platform/pose_frames.hpp"
 #include "support/random_pose_report.hpp"
+#include "support/send_frame.hpp"
 #include "support/test_data.hpp"
 
 namespace landfix::platform {
@@ -53,7 +54,7 @@ class CanReaders : public testing::TestWithParam<bool> {
       report.stamp_utc_ns = kStart_ns + i * kSweep_ns;
       const PoseFrames sent = encoder.encode(report);
       for (const CanFrame& frame : sent.all()) {
-        EXPECT_TRUE(log.send(frame, report.stamp_utc_ns));
+        EXPECT_TRUE(test::send_frame(log, frame, report.stamp_utc_ns));
         frames_.push_back(frame);
         stamps_utc_ns_.push_back(report.stamp_utc_ns);
       }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "platform/pose_frames.hpp"
+#include "support/send_frame.hpp"
 #include "support/test_data.hpp"
 
 namespace landfix::platform {
@@ -24,10 +25,12 @@ TEST(CandumpLog, WritesTheLinesOfCandump) {
   PoseReport report;
   report.x_m = 1234.567;
   report.y_m = -89.012;
-  EXPECT_TRUE(log.send(encode_frame(kFrameLayouts[0], 0x3A0, 3, report), 1'700'000'000'123'456'789));
-  EXPECT_TRUE(log.send({.id = 0x12345, .extended = true, .length = 2, .data = {std::byte{0xAB}}}, 1'000));
-  EXPECT_TRUE(log.send({.id = 0x3A9, .fd = true, .bit_rate_switch = true, .length = 12}, 2'000));
-  EXPECT_TRUE(log.send({.id = 0x3A9, .fd = true, .length = 0}, 3'000));
+  EXPECT_TRUE(
+      test::send_frame(log, encode_frame(kFrameLayouts[0], 0x3A0, 3, report), 1'700'000'000'123'456'789));
+  EXPECT_TRUE(test::send_frame(log, {.id = 0x12345, .extended = true, .length = 2, .data = {std::byte{0xAB}}},
+                               1'000));
+  EXPECT_TRUE(test::send_frame(log, {.id = 0x3A9, .fd = true, .bit_rate_switch = true, .length = 12}, 2'000));
+  EXPECT_TRUE(test::send_frame(log, {.id = 0x3A9, .fd = true, .length = 0}, 3'000));
   EXPECT_FALSE(std::filesystem::exists(path));
   log.commit();
   EXPECT_EQ(text_of(path),
@@ -45,7 +48,7 @@ TEST(CandumpLog, TheParserReadsWhatTheLogWrote) {
       CanFrame{.id = 0x7FF, .fd = true, .bit_rate_switch = true, .length = 64, .data = {std::byte{2}}},
       CanFrame{.id = 0x1FFFFFFF, .extended = true, .fd = true, .length = 1, .data = {std::byte{3}}},
   };
-  for (const CanFrame& frame : frames) EXPECT_TRUE(log.send(frame, 1'700'000'000'123'456'000));
+  for (const CanFrame& frame : frames) EXPECT_TRUE(test::send_frame(log, frame, 1'700'000'000'123'456'000));
   log.commit();
   std::ifstream file(directory.path() / "can.log");
   for (const CanFrame& frame : frames) {

@@ -113,13 +113,11 @@ TEST_F(HeapCounterTest, SendingAPoseIntoALogDoesNotTouchTheHeap) {
   EXPECT_EQ(calls_of([&] {
               for (int i = 0; i < 5000; ++i) {
                 const PoseReport report = report_of({}, drivers::TimeSource::sensor, true);
-                for (const PoseFrames frames = fd_encoder.encode(report);
-                     const CanFrame& frame : frames.all())
-                  (void)log.send(frame, 0);
-                for (const PoseFrames frames = encoder.encode(report); const CanFrame& frame : frames.all()) {
-                  (void)decoder.decode(frame, 0);
-                  EXPECT_TRUE(log.send(frame, 1'700'000'000'000'000'000 + i));
-                }
+                const PoseFrames fd_frames = fd_encoder.encode(report);
+                EXPECT_EQ(log.send(fd_frames.all(), 0), fd_frames.count);
+                const PoseFrames frames = encoder.encode(report);
+                for (const CanFrame& frame : frames.all()) (void)decoder.decode(frame, 0);
+                EXPECT_EQ(log.send(frames.all(), 1'700'000'000'000'000'000 + i), frames.count);
                 latency.record(i);
               }
             }),

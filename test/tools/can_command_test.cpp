@@ -12,6 +12,7 @@
 #include "platform/frame_description.hpp"
 #include "platform/pose_frames.hpp"
 #include "support/run_landfix.hpp"
+#include "support/send_frame.hpp"
 #include "support/test_data.hpp"
 
 namespace landfix::tools {
@@ -38,7 +39,7 @@ class CanCommand : public testing::Test {
       report.state = 5;
       for (const platform::PoseFrames frames = encoder.encode(report);
            const platform::CanFrame& frame : frames.all()) {
-        EXPECT_TRUE(log.send(frame, report.stamp_utc_ns));
+        EXPECT_TRUE(test::send_frame(log, frame, report.stamp_utc_ns));
       }
     }
     log.commit();
