@@ -68,7 +68,7 @@ struct Fix {
   Velocity velocity = Velocity::Zero();
   /// Of the pose, as MatchResult's, with what the motion within the sweep adds.
   Matrix6 covariance = 1e6 * Matrix6::Identity();
-  MatchResult match;
+  MatchResult match{};
 };
 
 /// One sweep after the other. Allocates in its constructor only.
@@ -89,8 +89,19 @@ class Localizer {
   /// stamps do not rise the prediction stands still.
   [[nodiscard]] Fix localize(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns) noexcept;
 
+  /// What may be said of a sweep that has not come: PREDICTED, LOST or still INIT. Nothing that is known
+  /// changes by it: the sweep may only be late.
+  [[nodiscard]] Fix predict_missing(std::int64_t stamp_utc_ns) const noexcept;
+  /// NO_DATA: the sensor is silent. The next sweep is looked for where the motion had led by `lost_after_s`.
+  [[nodiscard]] Fix wait_for_data(std::int64_t stamp_utc_ns) noexcept;
+
  private:
+  void begin_time(std::int64_t stamp_utc_ns) noexcept;
   [[nodiscard]] State next_state(const Fix& fix) const noexcept;
+  [[nodiscard]] State state_without_match(std::int64_t stamp_utc_ns) const noexcept;
+  [[nodiscard]] Matrix6 predicted_covariance(const DeadReckoning& reckoning, const Pose& pose) const noexcept;
+  void take_match(Fix& fix) noexcept;
+  void stand_still(const Pose& pose) noexcept;
 
   VoxelMap map_;
   LocalizerSettings settings_;

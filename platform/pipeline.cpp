@@ -1,9 +1,17 @@
 #include "platform/pipeline.hpp"
 
+#include <algorithm>
+
 #include "platform/monotonic_clock.hpp"
 #include "platform/pose_report.hpp"
 
 namespace landfix::platform {
+namespace {
+
+/// What is older is told as this old: the signal holds 6.5534 s.
+constexpr double kOldest_s = 6.5;
+
+}  // namespace
 
 std::string_view to_string(Stage stage) noexcept {
   constexpr std::array<std::string_view, kStageCount> kNames{"decode", "filter", "match", "publish",
@@ -30,6 +38,7 @@ std::optional<SweepResult> Pipeline::process(const UdpPacket& packet) noexcept {
   std::optional<SweepResult> result;
   if (decoded.sweep_completed) {
     result = localize(sweeps_.completed());
+    schedule_.came(result->seen_utc_ns, packet.receive_utc_ns);
     record(Stage::last_packet, monotonic_ns() - began_ns);
   }
   // Those of the next sweep that the packet holds come after the match, so that its velocity serves them.
@@ -40,6 +49,30 @@ std::optional<SweepResult> Pipeline::process(const UdpPacket& packet) noexcept {
 std::optional<SweepResult> Pipeline::finish() noexcept {
   if (!decoder_.flush(sweeps_)) return std::nullopt;
   return localize(sweeps_.completed());
+}
+
+std::optional<SweepResult> Pipeline::predict_missing(std::int64_t now_utc_ns) noexcept {
+  while (const auto missing = schedule_.next_missing(now_utc_ns)) {
+    if (missing->is_silence) drop_begun_sweep();
+    SweepResult result{.fix = missing->is_silence ? localizer_.wait_for_data(missing->stamp_utc_ns)
+                                                  : localizer_.predict_missing(missing->stamp_utc_ns),
+                       .seen_utc_ns = seen_utc_ns_,
+                       .missing = true,
+                       .time_source = time_source_};
+    if (result.fix.state == ndt::State::init) continue;
+    publish(result);
+    return result;
+  }
+  return std::nullopt;
+}
+
+/// Else its points, of long ago, would be matched when the sensor speaks again, and published as the newest.
+void Pipeline::drop_begun_sweep() noexcept {
+  if (!decoder_.flush(sweeps_)) return;
+  filter_.clear();
+  filtered_ = 0;
+  filter_ns_ = 0;
+  decode_ns_ = 0;
 }
 
 void Pipeline::filter_new_points(const drivers::Sweep& sweep) noexcept {
@@ -82,7 +115,10 @@ SweepResult Pipeline::localize(const drivers::Sweep& sweep) noexcept {
   const ndt::Fix fix = localizer_.localize(points_m, sweep.end_utc_ns());
   record(Stage::match, monotonic_ns() - began_ns);
 
+  seen_utc_ns_ = sweep.end_utc_ns();
+  time_source_ = sweep.time_source();
   SweepResult result{.fix = fix,
+                     .seen_utc_ns = seen_utc_ns_,
                      .points_filtered = points_m.size(),
                      .complete = sweep.complete(),
                      .time_source = sweep.time_source()};
@@ -98,6 +134,8 @@ SweepResult Pipeline::localize(const drivers::Sweep& sweep) noexcept {
 void Pipeline::publish(const SweepResult& result) noexcept {
   if (bus_ == nullptr) return;
   PoseReport report = report_of(result.fix, result.time_source, result.complete);
+  const double age_s = static_cast<double>(result.fix.at.stamp_utc_ns - result.seen_utc_ns) * 1e-9;
+  report.age_s = std::min(age_s, kOldest_s);
   report.map_hash = settings_.map_hash;
   report.frames_version = kFramesVersion;
   const PoseFrames encoded = encoder_.encode(report);

@@ -23,6 +23,7 @@
 #include "platform/map_window.hpp"
 #include "platform/packet_source.hpp"
 #include "platform/pose_frames.hpp"
+#include "platform/sweep_schedule.hpp"
 
 namespace landfix::platform {
 
@@ -36,6 +37,7 @@ struct PipelineSettings {
   std::uint16_t telemetry_port = 0;               ///< of its other packets; 0: none
   std::uint32_t sensor_address = 0;               ///< IPv4, host byte order; 0: whoever sends
   std::size_t points_per_sweep = 0;               ///< room for a sweep
+  std::int64_t longest_period_ns = 200'000'000;   ///< of a sweep, at the sensor's slowest speed
   ndt::Pose sensor_pose = ndt::Pose::Identity();  ///< vehicle <- sensor
   ndt::FilterSettings filter;
   std::size_t filter_capacity = ndt::Matcher::kMaxPoints;  ///< points after the filter
@@ -47,9 +49,11 @@ struct PipelineSettings {
   std::uint16_t map_hash = 0;  ///< told on the bus
 };
 
-/// What came of one sweep.
+/// What came of one sweep, or of one that did not come.
 struct SweepResult {
   ndt::Fix fix;
+  std::int64_t seen_utc_ns = 0;  ///< the stamp of the last sweep that came: this one's, unless it is missing
+  bool missing = false;          ///< it has not come: predicted, or NO_DATA
   std::size_t points_filtered = 0;  ///< that were matched
   bool complete = false;
   drivers::TimeSource time_source = drivers::TimeSource::receive;
@@ -79,6 +83,11 @@ class Pipeline {
 
   /// Takes one packet; what came of the sweep that it completed, if it did.
   [[nodiscard]] std::optional<SweepResult> process(const UdpPacket& packet) noexcept;
+  /// What is to be said, by now, of a sweep that has not come; to be asked before each packet, with its time
+  /// of receipt, and while none comes with the clock that packets are stamped by, until there is nothing. A
+  /// sweep is missing half a period after it was due. For a second they are PREDICTED, then NO_DATA twice a
+  /// second; what is left of a sweep that was begun is then dropped. Nothing before the first sweep.
+  [[nodiscard]] std::optional<SweepResult> predict_missing(std::int64_t now_utc_ns) noexcept;
   /// At the end of the packets: what came of the last sweep, if any is begun.
   [[nodiscard]] std::optional<SweepResult> finish() noexcept;
 
@@ -92,6 +101,7 @@ class Pipeline {
 
  private:
   [[nodiscard]] SweepResult localize(const drivers::Sweep& sweep) noexcept;
+  void drop_begun_sweep() noexcept;
   void filter_new_points(const drivers::Sweep& sweep) noexcept;
   [[nodiscard]] std::span<const Eigen::Vector3f> finish_filter(std::int64_t end_utc_ns) noexcept;
   void publish(const SweepResult& result) noexcept;
@@ -105,6 +115,9 @@ class Pipeline {
   ndt::ScanFilter filter_;
   std::size_t filtered_ = 0;  ///< points of the current sweep, its first, that the filter has
   ndt::Localizer localizer_;
+  SweepSchedule schedule_;
+  std::int64_t seen_utc_ns_ = 0;
+  drivers::TimeSource time_source_ = drivers::TimeSource::receive;  ///< of the last sweep
   PoseFrameEncoder encoder_;
   FrameSink* bus_;
   MapWindow* window_;

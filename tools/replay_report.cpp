@@ -57,7 +57,8 @@ nlohmann::ordered_json to_json(const ReplayReport& report) {
     stages[stage.name] = {{"p50", stage.p50_ms}, {"p99", stage.p99_ms}, {"max", stage.max_ms}};
   }
   nlohmann::ordered_json object;
-  object["sweeps"] = result.sweeps.size();
+  object["sweeps"] = result.sweeps.size() - result.missing();
+  object["missing"] = result.missing();
   object["poses"] = result.trajectory().size();
   object["tracked"] = result.count(ndt::State::tracking);
   object["lost"] = result.count(ndt::State::lost);
@@ -101,13 +102,15 @@ std::string to_text(const ReplayReport& report) {
   const drivers::StreamCounters& stream = report.pipeline.stream_counters();
   const auto count = [&result](ndt::State state) { return result.count(state); };
   std::string text = fmt::format(
-      "sweeps       {}: {} tracking, {} degraded, {} predicted, {} lost, {} before the first match\n"
+      "sweeps       {}, and {} missing: {} tracking, {} degraded, {} predicted, {} lost, {} without data, "
+      "{} before the first match\n"
       "             {} partial; stamps by the {} clock\n"
       "packets      {}, {} rejected, {} lost; {} from other senders, {} to other ports\n"
       "iterations   {:.2f} a sweep on average\n",
-      result.sweeps.size(), count(ndt::State::tracking), count(ndt::State::degraded),
-      count(ndt::State::predicted), count(ndt::State::lost), count(ndt::State::init), result.partial(),
-      time_source(result), counters.packets, counters.rejected(), stream.lost_packets, counters.other_senders,
+      result.sweeps.size() - result.missing(), result.missing(), count(ndt::State::tracking),
+      count(ndt::State::degraded), count(ndt::State::predicted), count(ndt::State::lost),
+      count(ndt::State::no_data), count(ndt::State::init), result.partial(), time_source(result),
+      counters.packets, counters.rejected(), stream.lost_packets, counters.other_senders,
       counters.other_ports, result.iterations_mean());
   for (const auto& [reason, packets] : rejections(counters.by_status)) {
     text += fmt::format("  rejected   {}: {}\n", packets, reason);
