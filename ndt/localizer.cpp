@@ -52,11 +52,12 @@ Fit judge(const MatchResult& match, const FitGates& gates) noexcept {
                                                                                           : Fit::weak;
 }
 
-Fix Localizer::localize(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns) noexcept {
+Fix Localizer::localize(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns,
+                        const Deadline& deadline) noexcept {
   begin_time(stamp_utc_ns);
   reckoning_.pass(seconds_between(last_, stamp_utc_ns));
   Fix fix{.at = {stamp_utc_ns, predict(last_, velocity_, stamp_utc_ns)}};
-  fix.match = matcher_.match(map_, points_m, fix.at.pose, reckoning_.sigma_m());
+  fix.match = matcher_.match(map_, points_m, fix.at.pose, reckoning_.sigma_m(), deadline);
   fix.state = next_state(fix);
   if (fix.state >= State::degraded) {
     take_match(fix);

@@ -1,27 +1,29 @@
 #include "platform/doorbell.hpp"
 
+#include <algorithm>
 #include <ctime>
 
-#include <linux/futex.h>
-#include <sys/syscall.h>
+#include <poll.h>
 #include <unistd.h>
 
+#include "platform/monotonic_clock.hpp"
+
 namespace landfix::platform {
-namespace {
-
-constexpr std::int64_t kNs_per_s = 1'000'000'000;
-
-}  // namespace
 
 void Doorbell::ring() noexcept {
-  count_.fetch_add(1, std::memory_order_release);
-  ::syscall(SYS_futex, &count_, FUTEX_WAKE_PRIVATE, 1, nullptr, nullptr, 0);
+  constexpr std::uint64_t kOne = 1;
+  // Refused only where the count is at its end, and then the other is awake already.
+  (void)!::write(event_.number(), &kOne, sizeof kOne);
 }
 
-void Doorbell::wait(std::uint32_t seen, std::int64_t deadline_mono_ns) noexcept {
-  const timespec deadline{.tv_sec = deadline_mono_ns / kNs_per_s, .tv_nsec = deadline_mono_ns % kNs_per_s};
-  // The only FUTEX_WAIT whose deadline is a time and not a duration.
-  ::syscall(SYS_futex, &count_, FUTEX_WAIT_BITSET_PRIVATE, seen, &deadline, nullptr, FUTEX_BITSET_MATCH_ANY);
+void Doorbell::wait(std::int64_t deadline_mono_ns) noexcept {
+  constexpr std::int64_t kNs_per_s = 1'000'000'000;
+  const std::int64_t left_ns = std::max<std::int64_t>(0, deadline_mono_ns - monotonic_ns());
+  const timespec left{.tv_sec = left_ns / kNs_per_s, .tv_nsec = left_ns % kNs_per_s};
+  pollfd watched{.fd = event_.number(), .events = POLLIN, .revents = 0};
+  if (::ppoll(&watched, 1, &left, nullptr) <= 0) return;
+  std::uint64_t rings = 0;
+  (void)!::read(event_.number(), &rings, sizeof rings);
 }
 
 }  // namespace landfix::platform

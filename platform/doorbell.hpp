@@ -1,30 +1,26 @@
-// How one thread wakes another that has nothing to do: a count in memory that the kernel watches (futex), so
-// that ringing never waits and no ring between looking and sleeping is missed.
+// How one thread wakes another that has nothing to do: a file descriptor that counts (eventfd). Ringing never
+// waits, and a ring while the other looks for work ends its next wait at once.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
+
+#include "platform/file_descriptor.hpp"
 
 namespace landfix::platform {
 
 class Doorbell {
  public:
-  /// For whoever has left something to do. Never waits.
-  void ring() noexcept;
+  /// Throws std::runtime_error where the system has no descriptor left.
+  Doorbell();
 
-  /// For the sleeper, before it looks for something to do.
-  [[nodiscard]] std::uint32_t count() const noexcept {
-    // acquire, pairs with the release in ring(): what was left before the ring is seen after it.
-    return count_.load(std::memory_order_acquire);
-  }
-  /// Sleeps until a ring after `seen`, or until `deadline_mono_ns`, whichever is first; may wake for nothing.
-  void wait(std::uint32_t seen, std::int64_t deadline_mono_ns) noexcept;
+  /// For whoever has left something to do.
+  void ring() noexcept;
+  /// For the sleeper, which looks for work after each wait: until a ring since the last wait, or until
+  /// `deadline_mono_ns`, whichever is first; may wake for nothing.
+  void wait(std::int64_t deadline_mono_ns) noexcept;
 
  private:
-  static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
-  static_assert(sizeof(std::atomic<std::uint32_t>) == sizeof(std::uint32_t), "a futex is 32 bits");
-
-  alignas(64) std::atomic<std::uint32_t> count_{0};
+  FileDescriptor event_;
 };
 
 }  // namespace landfix::platform

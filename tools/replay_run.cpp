@@ -82,6 +82,13 @@ ReplayResult run_replay(platform::PacketSource& source, platform::Pipeline& pipe
     }
   }
   result.truncated = status == platform::ReadStatus::truncated;
+  result.pipeline = pipeline.counters();
+  result.stream = pipeline.stream_counters();
+  result.frames_dropped = pipeline.publish_counters().frames_dropped;
+  result.poses_saturated = pipeline.publish_counters().poses_saturated;
+  for (std::size_t i = 0; i < platform::kStageCount; ++i) {
+    result.durations.push_back(pipeline.durations(static_cast<platform::Stage>(i)));
+  }
   if (platform::HeapCounter::available()) result.heap_calls = platform::HeapCounter::calls();
   return result;
 }

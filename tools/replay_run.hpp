@@ -14,7 +14,12 @@ namespace landfix::tools {
 
 struct ReplayResult {
   std::vector<platform::SweepResult> sweeps;  ///< in the order of publishing, with the missing ones
-  bool truncated = false;                     ///< the capture ends in the middle of a record
+  platform::PipelineCounters pipeline;
+  drivers::StreamCounters stream;
+  std::uint64_t frames_dropped = 0;                   ///< that the bus did not take
+  std::uint64_t poses_saturated = 0;                  ///< with a value beyond its signal's range
+  std::vector<platform::LatencyHistogram> durations;  ///< by Stage
+  bool truncated = false;                             ///< the capture ends in the middle of a record
 
   // In receiving, solving and publishing, not in keeping the results; nothing where it cannot be counted.
   std::optional<std::uint64_t> heap_calls;
@@ -25,6 +30,9 @@ struct ReplayResult {
   [[nodiscard]] std::size_t count(ndt::State state) const;
   [[nodiscard]] std::size_t missing() const;  ///< of `sweeps`, those that have not come
   [[nodiscard]] std::size_t partial() const;  ///< of those that came, the ones that are not whole turns
+  [[nodiscard]] const platform::LatencyHistogram& duration(platform::Stage stage) const {
+    return durations[static_cast<std::size_t>(stage)];
+  }
   // Of those that came; NaN where none did.
   [[nodiscard]] double iterations_mean() const;
   [[nodiscard]] double points_mean() const;  ///< after the filter

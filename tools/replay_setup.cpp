@@ -48,8 +48,7 @@ namespace {
       .filter = configuration.filter,
       .deskew = input.deskew,
       .initial_pose = *initial_pose,
-      .can_base_id = configuration.can.base_id,
-      .can_fd = configuration.can.fd};
+      .publish = {.can_base_id = configuration.can.base_id, .can_fd = configuration.can.fd}};
   settings.localizer.matcher.max_iterations = configuration.matcher.max_iterations;
   return settings;
 }
@@ -61,10 +60,8 @@ namespace {
   return path;
 }
 
-/// By which a receiver tells one map from another: the checksum that covers all of it.
-[[nodiscard]] std::uint16_t hash_of(const ReplaySetup& setup) {
-  const std::uint32_t checksum =
-      setup.window ? setup.window->map_checksum() : setup.map().header().header_checksum;
+/// By which a receiver tells one map from another.
+[[nodiscard]] std::uint16_t hash_of(std::uint32_t checksum) {
   return static_cast<std::uint16_t>(checksum ^ checksum >> 16);
 }
 
@@ -94,7 +91,7 @@ ReplaySetup prepare_replay(const ReplayInput& input) {
   ReplaySetup setup{std::move(configuration), model, settings, decoder, {}, nullptr};
   const std::filesystem::path path = map_path(setup.configuration, input);
   add_map(setup, path);
-  setup.settings.map_hash = hash_of(setup);
+  setup.settings.publish.map_hash = hash_of(setup.map_checksum());
   const double resolution_m = setup.map().resolution_m();
   if (resolution_m != setup.configuration.matcher.resolution_m) {
     throw std::runtime_error(fmt::format(

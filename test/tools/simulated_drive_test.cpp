@@ -345,8 +345,8 @@ class InterruptedSource final : public platform::PacketSource {
   InterruptedSource source(directory + "capture.pcap", 5.03, silent_for_s);
   ReplayResult result = run_replay(source, pipeline, [](const platform::SweepResult&) {});
   bus.commit();
-  EXPECT_EQ(pipeline.counters().frames_dropped, 0U);
-  EXPECT_EQ(pipeline.counters().frames_saturated, 0U);
+  EXPECT_EQ(pipeline.publish_counters().frames_dropped, 0U);
+  EXPECT_EQ(pipeline.publish_counters().poses_saturated, 0U);
   return result;
 }
 
