@@ -15,6 +15,7 @@ constexpr std::array kTable{
     add_can_command,        //
     add_evaluate_command,   //
     add_simulate_command,   //
+    add_doctor_command,     //
 };
 
 }  // namespace

@@ -16,6 +16,7 @@ void add_replay_command(CLI::App& app);
 void add_can_command(CLI::App& app);
 void add_evaluate_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
+void add_doctor_command(CLI::App& app);
 
 extern const std::span<const AddCommand> kCommands;
 
