@@ -13,6 +13,12 @@ pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
 pkg_check_modules(PCAP REQUIRED IMPORTED_TARGET libpcap)
 pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
 
+# Tells systemd that the service is ready and alive.
+pkg_check_modules(SYSTEMD QUIET IMPORTED_TARGET libsystemd)
+if(NOT SYSTEMD_FOUND)
+  message(STATUS "Without libsystemd (libsystemd-dev): landfixd cannot be run as a service of Type=notify")
+endif()
+
 # Debian's liblzf ships neither a CMake file nor a pkg-config file.
 find_path(LZF_INCLUDE_DIR liblzf/lzf.h REQUIRED)
 find_library(LZF_LIBRARY lzf REQUIRED)

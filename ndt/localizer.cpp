@@ -6,6 +6,13 @@
 #include "ndt/covariance.hpp"
 
 namespace landfix::ndt {
+namespace {
+
+[[nodiscard]] double seconds_between(const StampedPose& before, std::int64_t stamp_utc_ns) noexcept {
+  return static_cast<double>(stamp_utc_ns - before.stamp_utc_ns) * 1e-9;
+}
+
+}  // namespace
 
 std::string_view to_string(State state) noexcept {
   switch (state) {
@@ -45,65 +52,103 @@ Fit judge(const MatchResult& match, const FitGates& gates) noexcept {
                                                                                           : Fit::weak;
 }
 
-Fix Localizer::localize(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns) noexcept {
-  if (!std::exchange(any_sweep_, true)) {
-    last_.stamp_utc_ns = stamp_utc_ns;
-    last_matched_ = last_;
-  }
-  // Where a clock was set back, time begins anew: nothing is predicted backwards, and LOST is still in reach.
-  last_.stamp_utc_ns = std::min(last_.stamp_utc_ns, stamp_utc_ns);
-  last_matched_.stamp_utc_ns = std::min(last_matched_.stamp_utc_ns, stamp_utc_ns);
-  const Pose prediction = predict(last_, velocity_, stamp_utc_ns);
-  const auto seconds_since = [stamp_utc_ns](const StampedPose& before) {
-    return static_cast<double>(stamp_utc_ns - before.stamp_utc_ns) * 1e-9;
-  };
-  reckoning_.pass(seconds_since(last_));
-  Fix fix{.at = {stamp_utc_ns, prediction},
-          .match = matcher_.match(map_, points_m, prediction, reckoning_.sigma_m())};
+Fix Localizer::localize(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns,
+                        const Deadline& deadline) noexcept {
+  begin_time(stamp_utc_ns);
+  reckoning_.pass(seconds_between(last_, stamp_utc_ns));
+  Fix fix{.at = {stamp_utc_ns, predict(last_, velocity_, stamp_utc_ns)}};
+  fix.match = matcher_.match(map_, points_m, fix.at.pose, reckoning_.sigma_m(), deadline);
   fix.state = next_state(fix);
   if (fix.state >= State::degraded) {
-    fix.at.pose = fix.match.pose;
-    fix.covariance = fix.match.covariance + from_vehicle_covariance(distortion_.covariance(), fix.at.pose);
-    const bool is_baseline = seconds_since(last_matched_) >= settings_.shortest_baseline_s;
-    if (fix.match.weak.count == 0) {
-      reckoning_.hold(state_ != State::init && is_baseline);
-      if (state_ >= State::degraded) distortion_.observe(pose_log(prediction.inverse() * fix.at.pose));
-    }
-    if (state_ != State::init && is_baseline)
-      velocity_ = steady_part(velocity_between(last_matched_, fix.at));
-    if (state_ == State::init || is_baseline) last_matched_ = fix.at;
+    take_match(fix);
   } else if (fix.state == State::predicted) {
-    fix.covariance = last_covariance_ + from_vehicle_covariance(reckoning_.covariance(), fix.at.pose);
+    fix.covariance = predicted_covariance(reckoning_, fix.at.pose);
   } else if (fix.state == State::lost) {
     // Wait where the last usable pose was: after a leap of the clock the prediction may be anywhere.
     fix.at.pose = last_.pose;
-    velocity_.setZero();
-    reckoning_ = DeadReckoning();
+    stand_still(last_.pose);
   }
-  if (fix.state >= State::degraded) last_covariance_ = fix.covariance;
   fix.velocity = velocity_;
   last_ = fix.at;
   state_ = fix.state;
   return fix;
 }
 
+Fix Localizer::predict_missing(std::int64_t stamp_utc_ns) const noexcept {
+  Fix fix{.at = {stamp_utc_ns, last_.pose}, .state = state_without_match(stamp_utc_ns)};
+  if (fix.state != State::predicted) return fix;
+  DeadReckoning reckoning = reckoning_;
+  reckoning.pass(seconds_between(last_, stamp_utc_ns));
+  fix.at.pose = predict(last_, velocity_, stamp_utc_ns);
+  fix.velocity = velocity_;
+  fix.covariance = predicted_covariance(reckoning, fix.at.pose);
+  return fix;
+}
+
+Fix Localizer::wait_for_data(std::int64_t stamp_utc_ns) noexcept {
+  const auto lost_after_ns = static_cast<std::int64_t>(settings_.lost_after_s * 1e9);
+  stand_still(predict(last_, velocity_, last_.stamp_utc_ns + lost_after_ns));
+  if (state_ != State::init) state_ = State::lost;
+  return {.at = {stamp_utc_ns, last_.pose}, .state = State::no_data};
+}
+
+/// Where a clock was set back, time begins anew: nothing is predicted backwards, and LOST is still in reach.
+void Localizer::begin_time(std::int64_t stamp_utc_ns) noexcept {
+  if (!std::exchange(any_sweep_, true)) {
+    last_.stamp_utc_ns = stamp_utc_ns;
+    last_matched_ = last_;
+  }
+  last_.stamp_utc_ns = std::min(last_.stamp_utc_ns, stamp_utc_ns);
+  last_matched_.stamp_utc_ns = std::min(last_matched_.stamp_utc_ns, stamp_utc_ns);
+}
+
 State Localizer::next_state(const Fix& fix) const noexcept {
   const Pose& prediction = fix.at.pose;
-  const double since_last_s = static_cast<double>(fix.at.stamp_utc_ns - last_.stamp_utc_ns) * 1e-9;
   const double share =
-      std::clamp(since_last_s / settings_.innovation_full_after_s, settings_.innovation_least_share, 1.0);
+      std::clamp(seconds_between(last_, fix.at.stamp_utc_ns) / settings_.innovation_full_after_s,
+                 settings_.innovation_least_share, 1.0);
   const bool is_near = (fix.match.pose.translation() - prediction.translation()).norm() <
                            share * settings_.innovation_limit_m &&
                        angle_between(fix.match.pose, prediction) < share * settings_.innovation_limit_rad;
-  const double unmatched_s = static_cast<double>(fix.at.stamp_utc_ns - last_matched_.stamp_utc_ns) * 1e-9;
   // A match that follows the prediction in weak directions is worth no more than that.
-  const bool is_anchored = fix.match.weak.count == 0 || unmatched_s <= settings_.lost_after_s;
+  const bool is_anchored = fix.match.weak.count == 0 ||
+                           seconds_between(last_matched_, fix.at.stamp_utc_ns) <= settings_.lost_after_s;
   const Fit fit = judge(fix.match, settings_.gates);
   if (fit != Fit::none && ((is_near && is_anchored) || state_ == State::init)) {
     return fit == Fit::good && fix.match.weak.count == 0 ? State::tracking : State::degraded;
   }
+  return state_without_match(fix.at.stamp_utc_ns);
+}
+
+State Localizer::state_without_match(std::int64_t stamp_utc_ns) const noexcept {
   if (state_ == State::init || state_ == State::lost) return state_;
+  const double unmatched_s = seconds_between(last_matched_, stamp_utc_ns);
   return unmatched_s > settings_.lost_after_s ? State::lost : State::predicted;
+}
+
+Matrix6 Localizer::predicted_covariance(const DeadReckoning& reckoning, const Pose& pose) const noexcept {
+  return last_covariance_ + from_vehicle_covariance(reckoning.covariance(), pose);
+}
+
+/// The prediction gives way to the match, which shows what the prediction was worth and the velocity.
+void Localizer::take_match(Fix& fix) noexcept {
+  const Pose prediction = std::exchange(fix.at.pose, fix.match.pose);
+  fix.covariance = fix.match.covariance + from_vehicle_covariance(distortion_.covariance(), fix.at.pose);
+  last_covariance_ = fix.covariance;
+  const bool is_baseline =
+      seconds_between(last_matched_, fix.at.stamp_utc_ns) >= settings_.shortest_baseline_s;
+  if (fix.match.weak.count == 0) {
+    reckoning_.hold(state_ != State::init && is_baseline);
+    if (state_ >= State::degraded) distortion_.observe(pose_log(prediction.inverse() * fix.at.pose));
+  }
+  if (state_ != State::init && is_baseline) velocity_ = steady_part(velocity_between(last_matched_, fix.at));
+  if (state_ == State::init || is_baseline) last_matched_ = fix.at;
+}
+
+void Localizer::stand_still(const Pose& pose) noexcept {
+  last_.pose = pose;
+  velocity_.setZero();
+  reckoning_ = DeadReckoning();
 }
 
 }  // namespace landfix::ndt

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "ndt/dead_reckoning.hpp"
+#include "ndt/deadline.hpp"
 #include "ndt/matcher.hpp"
 #include "ndt/motion.hpp"
 #include "ndt/voxel_map.hpp"
@@ -68,7 +69,7 @@ struct Fix {
   Velocity velocity = Velocity::Zero();
   /// Of the pose, as MatchResult's, with what the motion within the sweep adds.
   Matrix6 covariance = 1e6 * Matrix6::Identity();
-  MatchResult match;
+  MatchResult match{};
 };
 
 /// One sweep after the other. Allocates in its constructor only.
@@ -80,17 +81,36 @@ class Localizer {
   /// Another map of the same lattice, from the next sweep on.
   void use_map(const VoxelMap& map) noexcept { map_ = map; }
 
+  [[nodiscard]] const VoxelMap& map() const noexcept { return map_; }
+  /// Matches once, for nothing but that code and memory are in place.
+  void warm_up(std::span<const Eigen::Vector3f> points_m) noexcept {
+    (void)matcher_.match(map_, points_m, last_.pose);
+  }
+
   /// The last published pose.
   [[nodiscard]] const Pose& pose() const noexcept { return last_.pose; }
   /// The velocity to undo the next sweep's distortion with.
   [[nodiscard]] const Velocity& velocity() const noexcept { return velocity_; }
 
   /// `points_m`: deskewed and filtered, frame `vehicle` at `stamp_utc_ns`, the end of the sweep. Where
-  /// stamps do not rise the prediction stands still.
-  [[nodiscard]] Fix localize(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns) noexcept;
+  /// stamps do not rise the prediction stands still. `deadline`: of the match; one that it cuts short is not
+  /// believed.
+  [[nodiscard]] Fix localize(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns,
+                             const Deadline& deadline = {}) noexcept;
+
+  /// What may be said of a sweep that has not come: PREDICTED, LOST or still INIT. Nothing that is known
+  /// changes by it: the sweep may only be late.
+  [[nodiscard]] Fix predict_missing(std::int64_t stamp_utc_ns) const noexcept;
+  /// NO_DATA: the sensor is silent. The next sweep is looked for where the motion had led by `lost_after_s`.
+  [[nodiscard]] Fix wait_for_data(std::int64_t stamp_utc_ns) noexcept;
 
  private:
+  void begin_time(std::int64_t stamp_utc_ns) noexcept;
   [[nodiscard]] State next_state(const Fix& fix) const noexcept;
+  [[nodiscard]] State state_without_match(std::int64_t stamp_utc_ns) const noexcept;
+  [[nodiscard]] Matrix6 predicted_covariance(const DeadReckoning& reckoning, const Pose& pose) const noexcept;
+  void take_match(Fix& fix) noexcept;
+  void stand_still(const Pose& pose) noexcept;
 
   VoxelMap map_;
   LocalizerSettings settings_;

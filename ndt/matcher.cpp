@@ -76,14 +76,14 @@ struct Ending {
 }  // namespace
 
 MatchResult Matcher::match(const VoxelMap& map, std::span<const Eigen::Vector3f> points_m, const Pose& guess,
-                           std::optional<double> guess_sigma_m) noexcept {
+                           std::optional<double> guess_sigma_m, const Deadline& deadline) noexcept {
   MatchResult result;
   const ScoreConstants constants = score_constants(settings_.outlier_ratio, map.resolution_m());
   result.points = points_m.size();
   result.best_likelihood = constants.d1;
   const Phases phases(settings_);
   NewtonSearch search(map, constants, {settings_.step_limit_m, settings_.step_limit_rad},
-                      settings_.max_iterations);
+                      settings_.max_iterations, deadline);
 
   Pose wide = guess;
   Pose sharp = guess;
@@ -108,7 +108,7 @@ MatchResult Matcher::match(const VoxelMap& map, std::span<const Eigen::Vector3f>
   }
   if (!result.sharpened) end = climb(wide, phases.wide);
 
-  result.converged = end.estimate.converged;
+  result.converged = end.estimate.converged && !search.was_cut_short();
   result.pose = end.estimate.pose;
   if (end.estimate.objective.pairs != 0) {
     const Assessment assessment =
@@ -120,6 +120,7 @@ MatchResult Matcher::match(const VoxelMap& map, std::span<const Eigen::Vector3f>
   }
   result.pairs_dropped += groups_.dropped_pairs();
   result.iterations = search.iterations();
+  result.out_of_time = search.was_cut_short();
   const PointScores& scores = end.wide_scores;
   result.score = scores.sum;
   if (!points_m.empty())

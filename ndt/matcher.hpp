@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "ndt/deadline.hpp"
 #include "ndt/degeneracy.hpp"
 #include "ndt/pair_groups.hpp"
 #include "ndt/pose.hpp"
@@ -44,6 +45,7 @@ struct MatchResult {
   int iterations = 0;             ///< evaluations of the objective
   bool converged = false;
   bool sharpened = false;
+  bool out_of_time = false;  ///< the deadline came first: not converged
 };
 
 /// Each step that is not negligible is tried before it is taken and must not lower the score: the search
@@ -56,10 +58,10 @@ class Matcher {
 
   /// `points_m`: the filtered scan, frame `vehicle`, neighbours near each other (VoxelGrid). `guess`: map <-
   /// vehicle. `guess_sigma_m`: how far it may be off, as the displacement of points; nothing: a voxel's
-  /// length.
+  /// length. `deadline`: the search ends there, with what it has.
   [[nodiscard]] MatchResult match(const VoxelMap& map, std::span<const Eigen::Vector3f> points_m,
-                                  const Pose& guess,
-                                  std::optional<double> guess_sigma_m = std::nullopt) noexcept;
+                                  const Pose& guess, std::optional<double> guess_sigma_m = std::nullopt,
+                                  const Deadline& deadline = {}) noexcept;
 
   static constexpr std::size_t kMaxPoints = 1 << 15;
 

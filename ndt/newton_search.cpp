@@ -55,6 +55,12 @@ struct Boldness {
 
 }  // namespace
 
+bool NewtonSearch::may_go_on(int last_iteration) noexcept {
+  if (iterations_ >= last_iteration) return false;
+  was_cut_short_ = was_cut_short_ || deadline_.has_passed();
+  return !was_cut_short_;
+}
+
 Estimate NewtonSearch::evaluate_at(const Pose& pose, PairGroups& groups, const Phase& phase) noexcept {
   ++iterations_;
   const ScoreConstants constants{.d1 = constants_.d1, .d2 = phase.narrowness * constants_.d2};
@@ -63,11 +69,11 @@ Estimate NewtonSearch::evaluate_at(const Pose& pose, PairGroups& groups, const P
 
 Estimate NewtonSearch::climb(const Pose& start, PairGroups& groups, const Phase& phase) noexcept {
   const int last_iteration = std::min(max_iterations_, iterations_ + phase.max_iterations);
-  if (iterations_ >= last_iteration) return {.pose = start, .objective = {}};
+  if (!may_go_on(last_iteration)) return {.pose = start, .objective = {}};
   Estimate best = evaluate_at(start, groups, phase);
   if (best.objective.pairs == 0) return best;
   Boldness boldness;
-  while (iterations_ < last_iteration) {
+  while (may_go_on(last_iteration)) {
     const Twist step = limited(newton_step(best.objective, boldness), limits_);
     const Pose after = moved(best.pose, step);
     const bool is_negligible =

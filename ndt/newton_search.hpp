@@ -1,6 +1,7 @@
 // Newton's method on the objective: climbs from a pose to the nearest maximum.
 #pragma once
 
+#include "ndt/deadline.hpp"
 #include "ndt/objective.hpp"
 #include "ndt/pair_groups.hpp"
 #include "ndt/pose.hpp"
@@ -30,21 +31,29 @@ struct Estimate {
   bool converged = false;  ///< not for want of iterations, nor for want of pairs
 };
 
-/// Several climbs share one allowance of iterations, which are evaluations of the objective.
+/// Several climbs share one allowance of iterations, which are evaluations of the objective, and one
+/// deadline: a climb that it cuts short has not converged.
 class NewtonSearch {
  public:
   /// `map` must outlive the search.
   NewtonSearch(const VoxelMap& map, const ScoreConstants& constants, const StepLimits& limits,
-               int max_iterations) noexcept
-      : map_(map), constants_(constants), limits_(limits), max_iterations_(max_iterations) {}
+               int max_iterations, const Deadline& deadline = {}) noexcept
+      : map_(map),
+        constants_(constants),
+        limits_(limits),
+        max_iterations_(max_iterations),
+        deadline_(deadline) {}
 
   /// Climbs until a step is negligible. Each step but such a one is tried before it is taken and must not
   /// lower the score.
   [[nodiscard]] Estimate climb(const Pose& start, PairGroups& groups, const Phase& phase) noexcept;
 
   [[nodiscard]] int iterations() const noexcept { return iterations_; }
+  /// The deadline has cut a climb short.
+  [[nodiscard]] bool was_cut_short() const noexcept { return was_cut_short_; }
 
  private:
+  [[nodiscard]] bool may_go_on(int last_iteration) noexcept;
   [[nodiscard]] Estimate evaluate_at(const Pose& pose, PairGroups& groups, const Phase& phase) noexcept;
 
   const VoxelMap& map_;
@@ -52,6 +61,8 @@ class NewtonSearch {
   StepLimits limits_;
   int max_iterations_;
   int iterations_ = 0;
+  Deadline deadline_;
+  bool was_cut_short_ = false;
 };
 
 }  // namespace landfix::ndt

@@ -45,6 +45,10 @@ class FrameSink {
   /// is dropped. `stamp_utc_ns`: when they are sent.
   [[nodiscard]] virtual std::size_t send(std::span<const CanFrame> group,
                                          std::int64_t stamp_utc_ns) noexcept = 0;
+
+  /// To be called before each group, and every 100 ms where there is none: what the sink has to see to. Never
+  /// waits.
+  virtual void maintain(std::int64_t /*monotonic_ns*/) noexcept {}
 };
 
 }  // namespace landfix::platform

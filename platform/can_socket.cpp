@@ -113,11 +113,6 @@ constexpr CanSystem kLinuxCan{.open = open_socket, .link = link_of};
 
 }  // namespace
 
-void FileDescriptor::close() noexcept {
-  if (number_ >= 0) ::close(number_);
-  number_ = -1;
-}
-
 CanInterfaceName::CanInterfaceName(std::string_view name) noexcept {
   std::copy_n(name.begin(), std::min(name.size(), kMaxLength), text_.begin());
 }

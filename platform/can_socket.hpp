@@ -7,30 +7,10 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
-#include <utility>
+
+#include "platform/file_descriptor.hpp"
 
 namespace landfix::platform {
-
-/// Closes what it holds; -1: nothing.
-class FileDescriptor {
- public:
-  FileDescriptor() noexcept = default;
-  explicit FileDescriptor(int number) noexcept : number_(number) {}
-  FileDescriptor(FileDescriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  FileDescriptor& operator=(FileDescriptor&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
-  ~FileDescriptor() { close(); }
-
-  void close() noexcept;
-  [[nodiscard]] int release() noexcept { return std::exchange(number_, -1); }
-  [[nodiscard]] int number() const noexcept { return number_; }
-  [[nodiscard]] bool is_open() const noexcept { return number_ >= 0; }
-
- private:
-  int number_ = -1;
-};
 
 /// The name of an interface, as the kernel holds it.
 class CanInterfaceName {

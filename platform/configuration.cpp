@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t kMaxUnixPathLength = 107;
 
 constexpr std::array kSections{"sensor", "vehicle", "map", "initial_pose",
-                               "filter", "matcher", "can", "metrics"};
+                               "filter", "matcher", "can", "realtime", "metrics"};
 
 bool is_ipv4(std::string_view text) {
   in_addr address{};
@@ -150,6 +150,7 @@ Configuration parse_configuration(std::string_view text, const std::filesystem::
   read_filter({path, root, "filter"}, configuration.filter);
   read_matcher({path, root, "matcher"}, configuration.matcher);
   read_can({path, root, "can"}, configuration.can);
+  read_realtime({path, root, "realtime"}, configuration.realtime);
   read_metrics({path, root, "metrics"}, configuration.metrics);
   return configuration;
 }

@@ -10,6 +10,7 @@
 
 #include "ndt/pose.hpp"
 #include "ndt/scan_filter.hpp"
+#include "platform/realtime_settings.hpp"
 
 namespace landfix::platform {
 
@@ -60,6 +61,7 @@ struct Configuration {
   ndt::FilterSettings filter{};
   MatcherSettings matcher{};
   CanSettings can{};
+  RealtimeSettings realtime{};
   MetricsSettings metrics{};
 };
 

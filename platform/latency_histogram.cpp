@@ -7,7 +7,7 @@ namespace landfix::platform {
 void LatencyHistogram::merge(const LatencyHistogram& other) noexcept {
   for (std::size_t i = 0; i < kCounters; ++i) counts_[i] += other.counts_[i];
   count_ += other.count_;
-  max_ns_ = std::max(max_ns_, other.max_ns_);
+  max_ns_ = std::max<std::uint64_t>(max_ns_, other.max_ns_);
 }
 
 std::int64_t LatencyHistogram::percentile_ns(double percent) const noexcept {
@@ -17,9 +17,9 @@ std::int64_t LatencyHistogram::percentile_ns(double percent) const noexcept {
   std::uint64_t seen = 0;
   for (std::size_t i = 0; i < kCounters; ++i) {
     seen += counts_[i];
-    if (seen >= rank) return std::min(highest(i), max_ns_);
+    if (seen >= rank) return std::min(highest(i), max_ns());
   }
-  return max_ns_;
+  return max_ns();
 }
 
 }  // namespace landfix::platform

@@ -8,9 +8,12 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "platform/relaxed_counter.hpp"
+
 namespace landfix::platform {
 
-/// Values from 0 to 68 s in nanoseconds; beyond, and below, they count as the nearest of these. 31 KB.
+/// Values from 0 to 68 s in nanoseconds; beyond, and below, they count as the nearest of these. 31 KB. One
+/// thread records; any other may read at the same time, and misses at most what is being recorded.
 class LatencyHistogram {
  public:
   static constexpr std::int64_t kMaxValue_ns = (std::int64_t{1} << 36) - 1;
@@ -19,7 +22,7 @@ class LatencyHistogram {
     const auto value = static_cast<std::uint64_t>(std::clamp(value_ns, std::int64_t{0}, kMaxValue_ns));
     ++counts_[index(value)];
     ++count_;
-    max_ns_ = std::max(max_ns_, static_cast<std::int64_t>(value));
+    max_ns_ = std::max<std::uint64_t>(max_ns_, value);
   }
 
   /// As if all that the other recorded had been recorded here.
@@ -29,7 +32,7 @@ class LatencyHistogram {
 
   [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
   /// Exact.
-  [[nodiscard]] std::int64_t max_ns() const noexcept { return max_ns_; }
+  [[nodiscard]] std::int64_t max_ns() const noexcept { return static_cast<std::int64_t>(max_ns_); }
 
   /// The smallest value that `percent` of the values do not exceed, rounded up by less than 0.8 %; 0 if there
   /// are none. `percent` within [0, 100].
@@ -54,9 +57,9 @@ class LatencyHistogram {
     return static_cast<std::int64_t>((((index % kSubBuckets + kSubBuckets) + 1) << dropped) - 1);
   }
 
-  std::array<std::uint64_t, kCounters> counts_{};
-  std::uint64_t count_ = 0;
-  std::int64_t max_ns_ = 0;
+  std::array<RelaxedCounter, kCounters> counts_{};
+  RelaxedCounter count_;
+  RelaxedCounter max_ns_;
 };
 
 }  // namespace landfix::platform

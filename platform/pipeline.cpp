@@ -1,17 +1,11 @@
 #include "platform/pipeline.hpp"
 
+#include <utility>
+
 #include "platform/monotonic_clock.hpp"
-#include "platform/pose_report.hpp"
 
 namespace landfix::platform {
-
-std::string_view to_string(Stage stage) noexcept {
-  constexpr std::array<std::string_view, kStageCount> kNames{"decode", "filter", "match", "publish",
-                                                             "last_packet"};
-  return kNames[static_cast<std::size_t>(stage)];
-}
-
-std::optional<SweepResult> Pipeline::process(const UdpPacket& packet) noexcept {
+std::optional<SweepResult> Pipeline::process(const UdpPacket& packet, const SweepOrders& orders) noexcept {
   const bool is_telemetry =
       settings_.telemetry_port != 0 && packet.destination_port == settings_.telemetry_port;
   if (packet.destination_port != settings_.port && !is_telemetry) {
@@ -23,13 +17,15 @@ std::optional<SweepResult> Pipeline::process(const UdpPacket& packet) noexcept {
     return std::nullopt;
   }
   const std::int64_t began_ns = monotonic_ns();
+  if (times_.first_packet_ns == 0) times_.first_packet_ns = began_ns;
   const drivers::DecodeResult decoded = decoder_.decode({packet.payload, packet.receive_utc_ns}, sweeps_);
   decode_ns_ += monotonic_ns() - began_ns;
   ++counters_.packets;
   ++counters_.by_status[static_cast<std::size_t>(decoded.status)];
   std::optional<SweepResult> result;
   if (decoded.sweep_completed) {
-    result = localize(sweeps_.completed());
+    result = localize(sweeps_.completed(), orders);
+    schedule_.came(result->seen_utc_ns, packet.receive_utc_ns);
     record(Stage::last_packet, monotonic_ns() - began_ns);
   }
   // Those of the next sweep that the packet holds come after the match, so that its velocity serves them.
@@ -39,7 +35,31 @@ std::optional<SweepResult> Pipeline::process(const UdpPacket& packet) noexcept {
 
 std::optional<SweepResult> Pipeline::finish() noexcept {
   if (!decoder_.flush(sweeps_)) return std::nullopt;
-  return localize(sweeps_.completed());
+  return localize(sweeps_.completed(), {});
+}
+
+std::optional<SweepResult> Pipeline::predict_missing(std::int64_t now_utc_ns) noexcept {
+  while (const auto missing = schedule_.next_missing(now_utc_ns)) {
+    if (missing->is_silence) drop_begun_sweep();
+    SweepResult result{.fix = missing->is_silence ? localizer_.wait_for_data(missing->stamp_utc_ns)
+                                                  : localizer_.predict_missing(missing->stamp_utc_ns),
+                       .seen_utc_ns = seen_utc_ns_,
+                       .missing = true,
+                       .time_source = time_source_};
+    if (result.fix.state == ndt::State::init) continue;
+    publish(result);
+    return result;
+  }
+  return std::nullopt;
+}
+
+/// Else its points, of long ago, would be matched when the sensor speaks again, and published as the newest.
+void Pipeline::drop_begun_sweep() noexcept {
+  if (!decoder_.flush(sweeps_)) return;
+  filter_.clear();
+  filtered_ = 0;
+  filter_ns_ = 0;
+  decode_ns_ = 0;
 }
 
 void Pipeline::filter_new_points(const drivers::Sweep& sweep) noexcept {
@@ -71,38 +91,43 @@ std::span<const Eigen::Vector3f> Pipeline::finish_filter(std::int64_t end_utc_ns
   return points_m;
 }
 
-SweepResult Pipeline::localize(const drivers::Sweep& sweep) noexcept {
+SweepResult Pipeline::localize(const drivers::Sweep& sweep, const SweepOrders& orders) noexcept {
+  times_.last_packet_ns = monotonic_ns();
   record(Stage::decode, decode_ns_);
   decode_ns_ = 0;
   filter_new_points(sweep);
   const auto points_m = finish_filter(sweep.end_utc_ns());
+  times_.filtered_ns = monotonic_ns();
 
-  std::int64_t began_ns = monotonic_ns();
-  if (window_ != nullptr) localizer_.use_map(window_->newest(localizer_.pose().translation()));
-  const ndt::Fix fix = localizer_.localize(points_m, sweep.end_utc_ns());
-  record(Stage::match, monotonic_ns() - began_ns);
+  const ndt::Fix fix = fix_of(points_m, sweep.end_utc_ns(), orders);
+  times_.matched_ns = monotonic_ns();
+  record(Stage::match, times_.matched_ns - times_.filtered_ns);
 
-  SweepResult result{.fix = fix,
-                     .points_filtered = points_m.size(),
-                     .complete = sweep.complete(),
-                     .time_source = sweep.time_source()};
-  began_ns = monotonic_ns();
+  seen_utc_ns_ = sweep.end_utc_ns();
+  time_source_ = sweep.time_source();
+  const SweepResult result{.fix = fix,
+                           .seen_utc_ns = seen_utc_ns_,
+                           .skipped = orders.skip_match,
+                           .points_filtered = points_m.size(),
+                           .complete = sweep.complete(),
+                           .time_source = sweep.time_source(),
+                           .times = std::exchange(times_, {})};
   publish(result);
-  record(Stage::publish, monotonic_ns() - began_ns);
-
+  record(Stage::publish, monotonic_ns() - result.times.matched_ns);
   counters_.points_overflowed += sweep.overflowed();
   counters_.pairs_dropped += fix.match.pairs_dropped;
   return result;
 }
 
+ndt::Fix Pipeline::fix_of(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns,
+                          const SweepOrders& orders) noexcept {
+  if (orders.skip_match) return localizer_.predict_missing(stamp_utc_ns);
+  if (window_ != nullptr) localizer_.use_map(window_->newest(localizer_.pose().translation()));
+  return localizer_.localize(points_m, stamp_utc_ns, orders.deadline);
+}
+
 void Pipeline::publish(const SweepResult& result) noexcept {
-  if (bus_ == nullptr) return;
-  PoseReport report = report_of(result.fix, result.time_source, result.complete);
-  report.map_hash = settings_.map_hash;
-  report.frames_version = kFramesVersion;
-  const PoseFrames encoded = encoder_.encode(report);
-  counters_.frames_dropped += encoded.count - bus_->send(encoded.all(), result.fix.at.stamp_utc_ns);
-  if (encoded.saturated) ++counters_.frames_saturated;
+  publisher_.publish(report_of(result), result.fix.at.stamp_utc_ns);
 }
 
 void Pipeline::record(Stage stage, std::int64_t duration_ns) noexcept {

@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "drivers/any_decoder.hpp"
 #include "drivers/decoder.hpp"
 #include "drivers/sweep.hpp"
+#include "ndt/deadline.hpp"
 #include "ndt/localizer.hpp"
 #include "ndt/motion.hpp"
 #include "ndt/pose.hpp"
@@ -22,37 +22,32 @@
 #include "platform/latency_histogram.hpp"
 #include "platform/map_window.hpp"
 #include "platform/packet_source.hpp"
-#include "platform/pose_frames.hpp"
+#include "platform/pose_publisher.hpp"
+#include "platform/stage.hpp"
+#include "platform/sweep_result.hpp"
+#include "platform/sweep_schedule.hpp"
 
 namespace landfix::platform {
-
-/// Of a sweep: all the time spent on its packets, and what was left to do from its last packet to its pose.
-enum class Stage : std::uint8_t { decode, filter, match, publish, last_packet };
-inline constexpr std::size_t kStageCount = 5;
-[[nodiscard]] std::string_view to_string(Stage stage) noexcept;
 
 struct PipelineSettings {
   std::uint16_t port = 0;                         ///< of the sensor's data packets; others are counted
   std::uint16_t telemetry_port = 0;               ///< of its other packets; 0: none
   std::uint32_t sensor_address = 0;               ///< IPv4, host byte order; 0: whoever sends
   std::size_t points_per_sweep = 0;               ///< room for a sweep
+  std::int64_t longest_period_ns = 200'000'000;   ///< of a sweep, at the sensor's slowest speed
   ndt::Pose sensor_pose = ndt::Pose::Identity();  ///< vehicle <- sensor
   ndt::FilterSettings filter;
   std::size_t filter_capacity = ndt::Matcher::kMaxPoints;  ///< points after the filter
   bool deskew = true;
   ndt::LocalizerSettings localizer{};
   ndt::Pose initial_pose = ndt::Pose::Identity();  ///< map <- vehicle
-  std::uint32_t can_base_id = 0x3A0;
-  bool can_fd = false;
-  std::uint16_t map_hash = 0;  ///< told on the bus
+  PublishSettings publish;
 };
 
-/// What came of one sweep.
-struct SweepResult {
-  ndt::Fix fix;
-  std::size_t points_filtered = 0;  ///< that were matched
-  bool complete = false;
-  drivers::TimeSource time_source = drivers::TimeSource::receive;
+/// What a sweep that a packet completes may cost, where others wait.
+struct SweepOrders {
+  bool skip_match = false;   ///< predict it instead
+  ndt::Deadline deadline{};  ///< of its match
 };
 
 struct PipelineCounters {
@@ -63,8 +58,6 @@ struct PipelineCounters {
   std::uint64_t points_overflowed = 0;  ///< did not fit the sweep
   std::uint64_t points_unfiltered = 0;  ///< did not fit the filter, or were not finite
   std::uint64_t pairs_dropped = 0;      ///< of a point and a voxel, for want of room in the matcher
-  std::uint64_t frames_dropped = 0;     ///< that the bus did not take
-  std::uint64_t frames_saturated = 0;   ///< poses with a value beyond its signal's range
 
   [[nodiscard]] std::uint64_t rejected() const noexcept { return drivers::rejected(by_status); }
 };
@@ -77,12 +70,23 @@ class Pipeline {
   Pipeline(const PipelineSettings& settings, const drivers::AnyDecoder& decoder, const ndt::VoxelMap& map,
            FrameSink* bus, MapWindow* window = nullptr);
 
+  /// Part of the set-up: filters, matches and encodes once, with points of the map around the initial pose,
+  /// so that the first sweep finds code and memory in place. Leaves no trace.
+  void warm_up() noexcept;
+
   /// Takes one packet; what came of the sweep that it completed, if it did.
-  [[nodiscard]] std::optional<SweepResult> process(const UdpPacket& packet) noexcept;
+  [[nodiscard]] std::optional<SweepResult> process(const UdpPacket& packet,
+                                                   const SweepOrders& orders = {}) noexcept;
+  /// What is to be said, by now, of a sweep that has not come; to be asked before each packet, with its time
+  /// of receipt, and while none comes with the clock that packets are stamped by, until there is nothing. A
+  /// sweep is missing half a period after it was due. For a second they are PREDICTED, then NO_DATA twice a
+  /// second; what is left of a sweep that was begun is then dropped. Nothing before the first sweep.
+  [[nodiscard]] std::optional<SweepResult> predict_missing(std::int64_t now_utc_ns) noexcept;
   /// At the end of the packets: what came of the last sweep, if any is begun.
   [[nodiscard]] std::optional<SweepResult> finish() noexcept;
 
   [[nodiscard]] const PipelineCounters& counters() const noexcept { return counters_; }
+  [[nodiscard]] const PublishCounters& publish_counters() const noexcept { return publisher_.counters(); }
   [[nodiscard]] const drivers::StreamCounters& stream_counters() const noexcept {
     return decoder_.counters();
   }
@@ -91,10 +95,13 @@ class Pipeline {
   }
 
  private:
-  [[nodiscard]] SweepResult localize(const drivers::Sweep& sweep) noexcept;
+  [[nodiscard]] SweepResult localize(const drivers::Sweep& sweep, const SweepOrders& orders) noexcept;
+  void drop_begun_sweep() noexcept;
   void filter_new_points(const drivers::Sweep& sweep) noexcept;
   [[nodiscard]] std::span<const Eigen::Vector3f> finish_filter(std::int64_t end_utc_ns) noexcept;
   void publish(const SweepResult& result) noexcept;
+  [[nodiscard]] ndt::Fix fix_of(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns,
+                                const SweepOrders& orders) noexcept;
   void record(Stage stage, std::int64_t duration_ns) noexcept;
 
   PipelineSettings settings_;
@@ -105,10 +112,13 @@ class Pipeline {
   ndt::ScanFilter filter_;
   std::size_t filtered_ = 0;  ///< points of the current sweep, its first, that the filter has
   ndt::Localizer localizer_;
-  PoseFrameEncoder encoder_;
-  FrameSink* bus_;
+  SweepSchedule schedule_;
+  std::int64_t seen_utc_ns_ = 0;
+  drivers::TimeSource time_source_ = drivers::TimeSource::receive;  ///< of the last sweep
+  PosePublisher publisher_;
   MapWindow* window_;
   PipelineCounters counters_;
+  SweepTimes times_;            ///< of the current sweep
   std::int64_t decode_ns_ = 0;  ///< spent on the packets of the current sweep
   std::int64_t filter_ns_ = 0;
   std::array<LatencyHistogram, kStageCount> durations_{};

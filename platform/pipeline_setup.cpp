@@ -1,5 +1,6 @@
 // Set-up of the pipeline: the one place where it allocates.
 #include "platform/pipeline.hpp"
+#include "platform/pose_frames.hpp"
 
 namespace landfix::platform {
 
@@ -11,8 +12,20 @@ Pipeline::Pipeline(const PipelineSettings& settings, const drivers::AnyDecoder& 
       sweeps_(points_),
       filter_(settings.filter, settings.filter_capacity),
       localizer_(map, settings.localizer, settings.initial_pose),
-      encoder_(settings.can_base_id, settings.can_fd),
-      bus_(bus),
+      schedule_(settings.longest_period_ns, static_cast<std::int64_t>(settings.localizer.lost_after_s * 1e9)),
+      publisher_(settings.publish, bus),
       window_(window) {}
+
+void Pipeline::warm_up() noexcept {
+  constexpr double kReach_m = 60.0;
+  const ndt::Pose to_vehicle = settings_.initial_pose.inverse();
+  ndt::visit_voxels(localizer_.map(), [&](const ndt::Voxel& /*voxel*/, const Eigen::Vector3d& mean_m) {
+    const Eigen::Vector3d point_m = to_vehicle * mean_m;
+    if (point_m.norm() < kReach_m) filter_.add(point_m.cast<float>(), 0);
+  });
+  localizer_.warm_up(filter_.finish());
+  filter_.clear();
+  (void)PoseFrameEncoder(settings_.publish.can_base_id, settings_.publish.can_fd).encode(PoseReport());
+}
 
 }  // namespace landfix::platform

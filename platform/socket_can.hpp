@@ -26,9 +26,8 @@ class SocketCan final : public FrameSink {
   [[nodiscard]] std::size_t send(std::span<const CanFrame> group,
                                  std::int64_t stamp_utc_ns) noexcept override;
 
-  /// To be called before each group, and every 100 ms where there is none: reads what the controller tells of
-  /// the bus, and opens the interface anew where it was lost. Never waits.
-  void maintain(std::int64_t monotonic_ns) noexcept;
+  /// Reads what the controller tells of the bus, and opens the interface anew where it was lost.
+  void maintain(std::int64_t monotonic_ns) noexcept override;
 
   /// For any thread.
   [[nodiscard]] BusStatus status() const noexcept;

@@ -96,7 +96,7 @@ void replay(const Arguments& arguments) {
   if (!arguments.trajectory.empty()) platform::write_tum(arguments.trajectory, trajectory);
   if (bus) bus->commit();
   if (!arguments.svg.empty()) write_svg(arguments, map, trajectory, truth);
-  ReplayReport report{.result = result, .pipeline = pipeline, .evaluation = {}, .covariances = {}};
+  ReplayReport report{.result = result, .evaluation = {}, .covariances = {}};
   if (!arguments.truth.empty() && !trajectory.empty()) {
     report.evaluation = platform::evaluate(truth, trajectory);
     report.covariances = check_covariances(result.sweeps, truth);

@@ -34,12 +34,13 @@ struct StageTimes {
   double max_ms = 0.0;
 };
 
-[[nodiscard]] std::vector<StageTimes> stage_times(const platform::Pipeline& pipeline) {
+[[nodiscard]] std::vector<StageTimes> stage_times(const ReplayResult& result) {
   const auto to_ms = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-6; };
   std::vector<StageTimes> stages;
   for (std::size_t i = 0; i < platform::kStageCount; ++i) {
     const auto stage = static_cast<platform::Stage>(i);
-    const platform::LatencyHistogram& durations = pipeline.durations(stage);
+    const platform::LatencyHistogram& durations = result.duration(stage);
+    if (durations.count() == 0) continue;  // not of this kind of replay
     stages.push_back({std::string(to_string(stage)), to_ms(durations.percentile_ns(50.0)),
                       to_ms(durations.percentile_ns(99.0)), to_ms(durations.max_ns())});
   }
@@ -50,14 +51,15 @@ struct StageTimes {
 
 nlohmann::ordered_json to_json(const ReplayReport& report) {
   const ReplayResult& result = report.result;
-  const platform::PipelineCounters& counters = report.pipeline.counters();
-  const drivers::StreamCounters& stream = report.pipeline.stream_counters();
+  const platform::PipelineCounters& counters = report.result.pipeline;
+  const drivers::StreamCounters& stream = report.result.stream;
   nlohmann::ordered_json stages;
-  for (const StageTimes& stage : stage_times(report.pipeline)) {
+  for (const StageTimes& stage : stage_times(report.result)) {
     stages[stage.name] = {{"p50", stage.p50_ms}, {"p99", stage.p99_ms}, {"max", stage.max_ms}};
   }
   nlohmann::ordered_json object;
-  object["sweeps"] = result.sweeps.size();
+  object["sweeps"] = result.sweeps.size() - result.missing();
+  object["missing"] = result.missing();
   object["poses"] = result.trajectory().size();
   object["tracked"] = result.count(ndt::State::tracking);
   object["lost"] = result.count(ndt::State::lost);
@@ -74,7 +76,7 @@ nlohmann::ordered_json to_json(const ReplayReport& report) {
   object["pairs_dropped"] = counters.pairs_dropped;
   object["clock_steps"] = stream.clock_steps;
   object["restarts"] = stream.restarts;
-  object["can_frames"] = {{"dropped", counters.frames_dropped}, {"saturated", counters.frames_saturated}};
+  object["can_frames"] = {{"dropped", result.frames_dropped}, {"saturated", result.poses_saturated}};
   object["points_mean"] = result.points_mean();
   object["iterations_mean"] = result.iterations_mean();
   object["latency_ms"] = nullptr;
@@ -97,17 +99,19 @@ nlohmann::ordered_json to_json(const ReplayReport& report) {
 
 std::string to_text(const ReplayReport& report) {
   const ReplayResult& result = report.result;
-  const platform::PipelineCounters& counters = report.pipeline.counters();
-  const drivers::StreamCounters& stream = report.pipeline.stream_counters();
+  const platform::PipelineCounters& counters = report.result.pipeline;
+  const drivers::StreamCounters& stream = report.result.stream;
   const auto count = [&result](ndt::State state) { return result.count(state); };
   std::string text = fmt::format(
-      "sweeps       {}: {} tracking, {} degraded, {} predicted, {} lost, {} before the first match\n"
+      "sweeps       {}, and {} missing: {} tracking, {} degraded, {} predicted, {} lost, {} without data, "
+      "{} before the first match\n"
       "             {} partial; stamps by the {} clock\n"
       "packets      {}, {} rejected, {} lost; {} from other senders, {} to other ports\n"
       "iterations   {:.2f} a sweep on average\n",
-      result.sweeps.size(), count(ndt::State::tracking), count(ndt::State::degraded),
-      count(ndt::State::predicted), count(ndt::State::lost), count(ndt::State::init), result.partial(),
-      time_source(result), counters.packets, counters.rejected(), stream.lost_packets, counters.other_senders,
+      result.sweeps.size() - result.missing(), result.missing(), count(ndt::State::tracking),
+      count(ndt::State::degraded), count(ndt::State::predicted), count(ndt::State::lost),
+      count(ndt::State::no_data), count(ndt::State::init), result.partial(), time_source(result),
+      counters.packets, counters.rejected(), stream.lost_packets, counters.other_senders,
       counters.other_ports, result.iterations_mean());
   for (const auto& [reason, packets] : rejections(counters.by_status)) {
     text += fmt::format("  rejected   {}: {}\n", packets, reason);
@@ -118,13 +122,13 @@ std::string to_text(const ReplayReport& report) {
       {{counters.points_overflowed, "points that did not fit the sweep"},
        {counters.points_unfiltered, "points that did not fit the filter, or were not finite"},
        {counters.pairs_dropped, "pairs of a point and a voxel that did not fit the matcher"},
-       {counters.frames_dropped, "CAN frames that could not be written"},
-       {counters.frames_saturated, "poses beyond what their CAN frames can say"}}};
+       {result.frames_dropped, "CAN frames that could not be written"},
+       {result.poses_saturated, "poses beyond what their CAN frames can say"}}};
   for (const auto& [lost, what] : losses) {
     if (lost != 0) text += fmt::format("dropped      {} {}\n", lost, what);
   }
   text += "time a sweep [ms]    p50      p99      max\n";
-  for (const StageTimes& stage : stage_times(report.pipeline)) {
+  for (const StageTimes& stage : stage_times(report.result)) {
     text += fmt::format("  {:<12} {:8.3f} {:8.3f} {:8.3f}\n", stage.name, stage.p50_ms, stage.p99_ms,
                         stage.max_ms);
   }

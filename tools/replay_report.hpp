@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "platform/evaluation.hpp"
-#include "platform/pipeline.hpp"
 #include "tools/covariance_check.hpp"
 #include "tools/replay_run.hpp"
 
@@ -15,7 +14,6 @@ namespace landfix::tools {
 
 struct ReplayReport {
   const ReplayResult& result;
-  const platform::Pipeline& pipeline;
   std::optional<platform::Evaluation> evaluation;  ///< where the truth is known
   std::optional<CovarianceCheck> covariances;
 };

@@ -11,10 +11,14 @@ namespace {
 
 template <class Value>
 [[nodiscard]] double mean_of(const std::vector<platform::SweepResult>& sweeps, Value value) {
-  if (sweeps.empty()) return std::numeric_limits<double>::quiet_NaN();
   double sum = 0.0;
-  for (const platform::SweepResult& sweep : sweeps) sum += static_cast<double>(value(sweep));
-  return sum / static_cast<double>(sweeps.size());
+  double count = 0.0;
+  for (const platform::SweepResult& sweep : sweeps) {
+    if (sweep.missing) continue;
+    sum += static_cast<double>(value(sweep));
+    count += 1.0;
+  }
+  return count > 0.0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -35,9 +39,15 @@ std::size_t ReplayResult::count(ndt::State state) const {
                     [state](const platform::SweepResult& sweep) { return sweep.fix.state == state; }));
 }
 
-std::size_t ReplayResult::partial() const {
+std::size_t ReplayResult::missing() const {
   return static_cast<std::size_t>(std::count_if(
-      sweeps.begin(), sweeps.end(), [](const platform::SweepResult& sweep) { return !sweep.complete; }));
+      sweeps.begin(), sweeps.end(), [](const platform::SweepResult& sweep) { return sweep.missing; }));
+}
+
+std::size_t ReplayResult::partial() const {
+  return static_cast<std::size_t>(
+      std::count_if(sweeps.begin(), sweeps.end(),
+                    [](const platform::SweepResult& sweep) { return !sweep.missing && !sweep.complete; }));
 }
 
 double ReplayResult::iterations_mean() const {
@@ -51,13 +61,18 @@ double ReplayResult::points_mean() const {
 ReplayResult run_replay(platform::PacketSource& source, platform::Pipeline& pipeline,
                         const std::function<void(const platform::SweepResult&)>& on_sweep) {
   ReplayResult result;
-  for (;;) {
+  platform::UdpPacket packet;
+  platform::ReadStatus status = platform::ReadStatus::packet;
+  bool has_read = false;  // a packet that waits until nothing is missing before it
+  while (status == platform::ReadStatus::packet) {
     // What the vehicle does from packet to pose is watched; keeping the result is the replay's own affair.
     const platform::PageFaults before = platform::thread_page_faults();
     platform::HeapCounter::arm();
-    platform::UdpPacket packet;
-    const platform::ReadStatus status = source.next(packet);
-    const auto sweep = status == platform::ReadStatus::packet ? pipeline.process(packet) : pipeline.finish();
+    if (!has_read) status = source.next(packet);
+    const bool is_packet = status == platform::ReadStatus::packet;
+    auto sweep = is_packet ? pipeline.predict_missing(packet.receive_utc_ns) : pipeline.finish();
+    has_read = is_packet && sweep.has_value();
+    if (is_packet && !has_read) sweep = pipeline.process(packet);
     platform::HeapCounter::disarm();
     const platform::PageFaults after = platform::thread_page_faults();
     result.page_faults += after.minor - before.minor + after.major - before.major;
@@ -65,10 +80,14 @@ ReplayResult run_replay(platform::PacketSource& source, platform::Pipeline& pipe
       result.sweeps.push_back(*sweep);
       on_sweep(*sweep);
     }
-    if (status != platform::ReadStatus::packet) {
-      result.truncated = status == platform::ReadStatus::truncated;
-      break;
-    }
+  }
+  result.truncated = status == platform::ReadStatus::truncated;
+  result.pipeline = pipeline.counters();
+  result.stream = pipeline.stream_counters();
+  result.frames_dropped = pipeline.publish_counters().frames_dropped;
+  result.poses_saturated = pipeline.publish_counters().poses_saturated;
+  for (std::size_t i = 0; i < platform::kStageCount; ++i) {
+    result.durations.push_back(pipeline.durations(static_cast<platform::Stage>(i)));
   }
   if (platform::HeapCounter::available()) result.heap_calls = platform::HeapCounter::calls();
   return result;

@@ -13,8 +13,13 @@
 namespace landfix::tools {
 
 struct ReplayResult {
-  std::vector<platform::SweepResult> sweeps;
-  bool truncated = false;  ///< the capture ends in the middle of a record
+  std::vector<platform::SweepResult> sweeps;  ///< in the order of publishing, with the missing ones
+  platform::PipelineCounters pipeline;
+  drivers::StreamCounters stream;
+  std::uint64_t frames_dropped = 0;                   ///< that the bus did not take
+  std::uint64_t poses_saturated = 0;                  ///< with a value beyond its signal's range
+  std::vector<platform::LatencyHistogram> durations;  ///< by Stage
+  bool truncated = false;                             ///< the capture ends in the middle of a record
 
   // In receiving, solving and publishing, not in keeping the results; nothing where it cannot be counted.
   std::optional<std::uint64_t> heap_calls;
@@ -23,9 +28,14 @@ struct ReplayResult {
   /// The usable poses: PREDICTED, DEGRADED, TRACKING; with rising stamps.
   [[nodiscard]] std::vector<ndt::StampedPose> trajectory() const;
   [[nodiscard]] std::size_t count(ndt::State state) const;
-  [[nodiscard]] std::size_t partial() const;     ///< sweeps that are not whole turns
-  [[nodiscard]] double iterations_mean() const;  ///< NaN of no sweep
-  [[nodiscard]] double points_mean() const;      ///< after the filter; NaN of no sweep
+  [[nodiscard]] std::size_t missing() const;  ///< of `sweeps`, those that have not come
+  [[nodiscard]] std::size_t partial() const;  ///< of those that came, the ones that are not whole turns
+  [[nodiscard]] const platform::LatencyHistogram& duration(platform::Stage stage) const {
+    return durations[static_cast<std::size_t>(stage)];
+  }
+  // Of those that came; NaN where none did.
+  [[nodiscard]] double iterations_mean() const;
+  [[nodiscard]] double points_mean() const;  ///< after the filter
 };
 
 /// Feeds all of `source` to the pipeline. `on_sweep` is called after each sweep, for progress.

@@ -43,12 +43,12 @@ namespace {
       .telemetry_port = model.telemetry_port,
       .sensor_address = ipv4_of(configuration.sensor.address),
       .points_per_sweep = model.max_points_per_sweep(),
+      .longest_period_ns = 1'000'000'000 / model.rotation_hz[0],
       .sensor_pose = configuration.vehicle.sensor_pose,
       .filter = configuration.filter,
       .deskew = input.deskew,
       .initial_pose = *initial_pose,
-      .can_base_id = configuration.can.base_id,
-      .can_fd = configuration.can.fd};
+      .publish = {.can_base_id = configuration.can.base_id, .can_fd = configuration.can.fd}};
   settings.localizer.matcher.max_iterations = configuration.matcher.max_iterations;
   return settings;
 }
@@ -60,10 +60,8 @@ namespace {
   return path;
 }
 
-/// By which a receiver tells one map from another: the checksum that covers all of it.
-[[nodiscard]] std::uint16_t hash_of(const ReplaySetup& setup) {
-  const std::uint32_t checksum =
-      setup.window ? setup.window->map_checksum() : setup.map().header().header_checksum;
+/// By which a receiver tells one map from another.
+[[nodiscard]] std::uint16_t hash_of(std::uint32_t checksum) {
   return static_cast<std::uint16_t>(checksum ^ checksum >> 16);
 }
 
@@ -93,7 +91,7 @@ ReplaySetup prepare_replay(const ReplayInput& input) {
   ReplaySetup setup{std::move(configuration), model, settings, decoder, {}, nullptr};
   const std::filesystem::path path = map_path(setup.configuration, input);
   add_map(setup, path);
-  setup.settings.map_hash = hash_of(setup);
+  setup.settings.publish.map_hash = hash_of(setup.map_checksum());
   const double resolution_m = setup.map().resolution_m();
   if (resolution_m != setup.configuration.matcher.resolution_m) {
     throw std::runtime_error(fmt::format(

@@ -35,6 +35,10 @@ struct ReplaySetup {
   [[nodiscard]] ndt::VoxelMap map() const {
     return window ? window->newest(settings.initial_pose.translation()) : ndt::VoxelMap(image.bytes());
   }
+  /// That covers all of the map.
+  [[nodiscard]] std::uint32_t map_checksum() const {
+    return window ? window->map_checksum() : map().header().header_checksum;
+  }
 };
 
 /// Throws UsageError where the map or the initial pose is given nowhere, std::runtime_error where a file does

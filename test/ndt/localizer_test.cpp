@@ -68,6 +68,45 @@ TEST_F(Drive, IsLostAfterASecondOfPrediction) {
   EXPECT_FALSE(is_usable(last));
 }
 
+TEST_F(Drive, PredictsMissingSweepsAndForgetsThemWhenTheyComeAfterAll) {
+  for (int sweep = 0; sweep < 5; ++sweep) (void)localize(sweep);
+  const Pose before = localizer_.pose();
+  double sigma_before_m = 0.0;
+  for (int sweep = 5; sweep < 15; ++sweep) {
+    const Fix fix = localizer_.predict_missing(kSweep_ns * (10 + sweep));
+    EXPECT_EQ(fix.state, sweep <= 14 ? State::predicted : State::lost) << sweep;
+    EXPECT_LT(error_m(fix, sweep), 0.06 * (sweep - 3)) << sweep;
+    EXPECT_NEAR(fix.velocity[0], 4.0, 0.4);
+    EXPECT_GT(std::sqrt(fix.covariance(0, 0)), sigma_before_m);
+    sigma_before_m = std::sqrt(fix.covariance(0, 0));
+  }
+  EXPECT_EQ(localizer_.predict_missing(kSweep_ns * 25).state, State::lost);
+  EXPECT_EQ(localizer_.pose().matrix(), before.matrix());
+  EXPECT_EQ(localize(5).state, State::tracking);
+}
+
+TEST_F(Drive, AfterASilenceLooksWhereTheMotionHadLed) {
+  for (int sweep = 0; sweep < 5; ++sweep) (void)localize(sweep);
+  for (int sweep = 15; sweep < 40; sweep += 5) {
+    const Fix silent = localizer_.wait_for_data(kSweep_ns * (10 + sweep));
+    EXPECT_EQ(silent.state, State::no_data);
+    EXPECT_EQ(silent.at.stamp_utc_ns, kSweep_ns * (10 + sweep));
+    EXPECT_LT(error_m(silent, 14), 0.6) << "a second of motion, not more";
+  }
+  // The vehicle stopped where it was a second after the last sweep.
+  const Fix fix = localizer_.localize(scan(14), kSweep_ns * 47);
+  EXPECT_EQ(fix.state, State::tracking);
+  EXPECT_LT(error_m(fix, 14), 0.05);
+}
+
+TEST_F(Drive, ASilenceBeforeTheFirstMatchLeavesTheGuess) {
+  EXPECT_EQ(see_nothing(0).state, State::init);
+  EXPECT_EQ(localizer_.predict_missing(kSweep_ns * 11).state, State::init);
+  EXPECT_EQ(localizer_.wait_for_data(kSweep_ns * 21).state, State::no_data);
+  EXPECT_EQ(see_nothing(12).state, State::init);
+  EXPECT_EQ(localizer_.localize(scan(0), kSweep_ns * 23).state, State::tracking);
+}
+
 TEST_F(Drive, WaitsWhereItWasAfterALeapOfTheClock) {
   for (int sweep = 0; sweep < 5; ++sweep) (void)localize(sweep);
   const Fix lost = localizer_.localize(scan(5), kSweep_ns * 1'000'000);

@@ -437,5 +437,34 @@ TEST(Matcher, DoesNotMoveAlongADirectionThatNothingHolds) {
   EXPECT_GT(result.covariance(0, 0), 20.0 * result.covariance(2, 2));
 }
 
+// A clock that passes a second whenever it is asked.
+std::int64_t asked_s = 0;
+std::int64_t ask_clock() noexcept { return ++asked_s; }
+
+TEST(Matcher, StopsAtItsDeadlineAndSaysSo) {
+  const Yard yard(3);
+  Matcher matcher({});
+  Pose guess = yard.truth;
+  guess.translation().x() += 0.4;
+  const MatchResult whole = matcher.match(yard.map, yard.scan, guess);
+  ASSERT_TRUE(whole.converged);
+  ASSERT_FALSE(whole.out_of_time);
+  ASSERT_GT(whole.iterations, 4);
+  for (const std::int64_t deadline_s : {0, 1, 4}) {
+    asked_s = 0;
+    const MatchResult cut =
+        matcher.match(yard.map, yard.scan, guess, std::nullopt, {.now_ns = ask_clock, .at_ns = deadline_s});
+    EXPECT_TRUE(cut.out_of_time) << deadline_s;
+    EXPECT_FALSE(cut.converged) << deadline_s;
+    EXPECT_LE(cut.iterations, deadline_s + 1) << deadline_s;
+    EXPECT_EQ(asked_s, std::max<std::int64_t>(1, deadline_s)) << "it goes on asking when it is too late";
+  }
+  asked_s = 0;
+  const MatchResult in_time =
+      matcher.match(yard.map, yard.scan, guess, std::nullopt, {.now_ns = ask_clock, .at_ns = 1000});
+  EXPECT_FALSE(in_time.out_of_time);
+  EXPECT_EQ(in_time.pose.matrix(), whole.pose.matrix());
+}
+
 }  // namespace
 }  // namespace landfix::ndt::test

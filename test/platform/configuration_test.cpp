@@ -59,6 +59,14 @@ TEST(Configuration, TheExampleSaysTheDefaults) {
   EXPECT_EQ(example.can.base_id, defaults.can.base_id);
   EXPECT_EQ(example.can.rate_hz, defaults.can.rate_hz);
   EXPECT_EQ(example.can.fd, defaults.can.fd);
+  EXPECT_EQ(example.realtime.mode, defaults.realtime.mode);
+  EXPECT_EQ(example.realtime.lock_memory, defaults.realtime.lock_memory);
+  EXPECT_EQ(example.realtime.rx.priority, defaults.realtime.rx.priority);
+  EXPECT_EQ(example.realtime.rx.core, defaults.realtime.rx.core);
+  EXPECT_EQ(example.realtime.solve.priority, defaults.realtime.solve.priority);
+  EXPECT_EQ(example.realtime.solve.core, defaults.realtime.solve.core);
+  EXPECT_EQ(example.realtime.tx.priority, defaults.realtime.tx.priority);
+  EXPECT_EQ(example.realtime.tx.core, defaults.realtime.tx.core);
   EXPECT_EQ(example.metrics.address, defaults.metrics.address);
 }
 
@@ -66,7 +74,7 @@ TEST(Configuration, TheExampleMentionsEveryKey) {
   const auto bytes = read_file(kExample);
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   for (const char* section :
-       {"sensor", "vehicle", "map", "initial_pose", "filter", "matcher", "can", "metrics"}) {
+       {"sensor", "vehicle", "map", "initial_pose", "filter", "matcher", "can", "realtime", "metrics"}) {
     // The message for an unknown key lists those that are known.
     const std::string error = error_of(section, "nonsense = 1");
     const std::string has = fmt::format("[{}] has ", section);
@@ -107,6 +115,15 @@ interface = "vcan1"
 base_id = 0x500
 rate_hz = 50
 fd = true
+[realtime]
+mode = "required"
+lock_memory = false
+rx_priority = 90
+rx_core = 3
+solve_priority = 60
+solve_core = 2
+tx_priority = 65
+tx_core = 1
 [metrics]
 address = "unix:/run/landfix/metrics"
 )");
@@ -133,6 +150,14 @@ address = "unix:/run/landfix/metrics"
   EXPECT_EQ(read.can.base_id, 0x500U);
   EXPECT_EQ(read.can.rate_hz, 50.0);
   EXPECT_TRUE(read.can.fd);
+  EXPECT_EQ(read.realtime.mode, RealtimeMode::required);
+  EXPECT_FALSE(read.realtime.lock_memory);
+  EXPECT_EQ(read.realtime.rx.priority, 90);
+  EXPECT_EQ(read.realtime.rx.core, 3);
+  EXPECT_EQ(read.realtime.solve.priority, 60);
+  EXPECT_EQ(read.realtime.solve.core, 2);
+  EXPECT_EQ(read.realtime.tx.priority, 65);
+  EXPECT_EQ(read.realtime.tx.core, 1);
   EXPECT_EQ(read.metrics.address, "unix:/run/landfix/metrics");
 }
 
@@ -176,6 +201,12 @@ TEST(Configuration, BadValuesAreRefused) {
       {"can", "interface = \"can 0\""},
       {"can", "rate_hz = 0"},
       {"can", "fd = 0"},
+      {"realtime", "mode = \"on\""},
+      {"realtime", "mode = true"},
+      {"realtime", "rx_priority = 99"},
+      {"realtime", "solve_priority = 0"},
+      {"realtime", "tx_core = -2"},
+      {"realtime", "lock_memory = 1"},
       {"metrics", "address = \"localhost\""},
       {"metrics", "address = \"127.0.0.1:0\""},
       {"metrics", "address = \"127.0.0.1:99999\""},

@@ -312,6 +312,92 @@ TEST_F(SimulatedDrive, PacketsThatComeTwiceOrInTheWrongOrderDoNotLoseTheTrack) {
   }
 }
 
+/// A capture in which nothing comes for a while.
+class InterruptedSource final : public platform::PacketSource {
+ public:
+  InterruptedSource(const std::string& path, double silent_from_s, double silent_for_s)
+      : source_(path), from_ns_(to_ns(silent_from_s)), until_ns_(to_ns(silent_from_s + silent_for_s)) {}
+
+  [[nodiscard]] platform::ReadStatus next(platform::UdpPacket& packet) noexcept override {
+    for (;;) {
+      const platform::ReadStatus status = source_.next(packet);
+      if (status != platform::ReadStatus::packet) return status;
+      if (first_utc_ns_ == 0) first_utc_ns_ = packet.receive_utc_ns;
+      const std::int64_t since_ns = packet.receive_utc_ns - first_utc_ns_;
+      if (since_ns < from_ns_ || since_ns >= until_ns_) return status;
+    }
+  }
+
+ private:
+  [[nodiscard]] static std::int64_t to_ns(double s) { return static_cast<std::int64_t>(s * 1e9); }
+
+  platform::PcapSource source_;
+  std::int64_t from_ns_;
+  std::int64_t until_ns_;
+  std::int64_t first_utc_ns_ = 0;
+};
+
+/// What was published around a silence of that long.
+[[nodiscard]] ReplayResult replay_with_silence(const std::string& directory, double silent_for_s) {
+  const ReplaySetup setup = prepare_replay({.config = directory + "config.toml"});
+  platform::CandumpLog bus(fmt::format("{}silence{}.log", directory, silent_for_s), "can0");
+  platform::Pipeline pipeline(setup.settings, setup.decoder, setup.map(), &bus);
+  InterruptedSource source(directory + "capture.pcap", 5.03, silent_for_s);
+  ReplayResult result = run_replay(source, pipeline, [](const platform::SweepResult&) {});
+  bus.commit();
+  EXPECT_EQ(pipeline.publish_counters().frames_dropped, 0U);
+  EXPECT_EQ(pipeline.publish_counters().poses_saturated, 0U);
+  return result;
+}
+
+void expect_tracking_is_true(const ReplayResult& result, const std::string& truth_file) {
+  const auto truth = platform::read_tum(truth_file);
+  for (const platform::SweepResult& sweep : result.sweeps) {
+    const auto there = platform::interpolate(truth, sweep.fix.at.stamp_utc_ns);
+    if (!there || sweep.fix.state != ndt::State::tracking) continue;
+    EXPECT_LT((sweep.fix.at.pose.translation() - there->translation()).norm(), 0.3)
+        << sweep.fix.at.stamp_utc_ns;
+  }
+}
+
+TEST_F(SimulatedDrive, MissingSweepsArePredicted) {
+  const ReplayResult result = replay_with_silence(path(""), 0.3);
+  EXPECT_GE(result.missing(), 2U);
+  EXPECT_LE(result.missing(), 3U);
+  EXPECT_EQ(result.count(ndt::State::no_data), 0U);
+  EXPECT_EQ(result.count(ndt::State::lost), 0U);
+  for (const platform::SweepResult& sweep : result.sweeps) {
+    EXPECT_LE(sweep.fix.at.stamp_utc_ns - sweep.seen_utc_ns, sweep.missing ? 400'000'000 : 0);
+    if (sweep.missing) EXPECT_EQ(sweep.fix.state, ndt::State::predicted);
+  }
+  const auto poses = result.trajectory();
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    EXPECT_NEAR(static_cast<double>(poses[i].stamp_utc_ns - poses[i - 1].stamp_utc_ns) * 1e-9, 0.1, 0.051);
+  }
+  EXPECT_EQ(result.sweeps.back().fix.state, ndt::State::tracking);
+  expect_tracking_is_true(result, path("truth.tum"));
+  EXPECT_TRUE(!result.heap_calls || *result.heap_calls == 0U);
+  const std::string first = text_of(path("silence0.3.log"));
+  EXPECT_EQ(platform::format_tum(replay_with_silence(path(""), 0.3).trajectory()),
+            platform::format_tum(poses));
+  EXPECT_EQ(text_of(path("silence0.3.log")), first);
+}
+
+TEST_F(SimulatedDrive, ASilentSensorIsNoDataAfterASecond) {
+  const ReplayResult result = replay_with_silence(path(""), 3.0);
+  EXPECT_EQ(result.count(ndt::State::no_data), 4U);  // twice a second
+  std::size_t predicted = 0;
+  for (const platform::SweepResult& sweep : result.sweeps) {
+    const bool is_prediction = sweep.missing && sweep.fix.state == ndt::State::predicted;
+    predicted += is_prediction ? 1U : 0U;
+    if (is_prediction) EXPECT_LE(sweep.fix.at.stamp_utc_ns - sweep.seen_utc_ns, 1'000'000'000);
+  }
+  EXPECT_GE(predicted, 9U);
+  EXPECT_LE(predicted, 10U);
+  expect_tracking_is_true(result, path("truth.tum"));
+  EXPECT_TRUE(!result.heap_calls || *result.heap_calls == 0U);
+}
+
 TEST_F(SimulatedDrive, ACaptureThatIsCutShortGivesThePosesThatItHolds) {
   const std::string whole = text_of(path("capture.pcap"));
   std::ofstream(path("cut.pcap"), std::ios::binary) << whole.substr(0, whole.size() / 3 + 11);
