@@ -18,8 +18,8 @@ CanPort::CanPort(const CanSocketRequest& request, const CanSystem& system) noexc
 
 bool CanPort::maintain(std::int64_t monotonic_ns) noexcept {
   if (monotonic_ns < due_ns_) return false;
+  if (socket_.is_open()) follow(system_.link(socket_.number(), request_.interface), monotonic_ns);
   const bool is_new = !socket_.is_open() && open();
-  if (socket_.is_open() && !is_new) follow(system_.link(socket_.number(), request_.interface), monotonic_ns);
   due_ns_ = monotonic_ns + (error() == EAFNOSUPPORT ? kPeriodWithoutCan_ns : kPeriod_ns);
   return is_new;
 }

@@ -37,6 +37,8 @@ struct PoseReport {
   double score = kNone;       ///< nearest voxel likelihood as a share of the best there can be, 0 to 1
   double iterations = kNone;  ///< of the matcher
   double age_s = kNone;       ///< from the last sweep's last point to the sending
+  double latitude_deg = kNone;
+  double longitude_deg = kNone;
 
   // Codes: numbers that name something.
   std::uint16_t state = 0;          ///< ndt::State
@@ -49,6 +51,7 @@ struct PoseReport {
   std::uint16_t map_origin = 0;
   std::uint16_t map_projector = 0;
   std::uint16_t map_datum = 0;
+  std::uint16_t utm_zone = 0;  ///< that the map's x and y come from; 0: none
   std::uint16_t frames_version = 0;
 };
 
