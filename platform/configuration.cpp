@@ -6,13 +6,13 @@
 #include <stdexcept>
 #include <vector>
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "drivers/sensor_model.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/candump_log.hpp"
+#include "platform/ipv4.hpp"
 #include "platform/pose_frame_table.hpp"
 #include "platform/toml_section.hpp"
 
@@ -24,11 +24,7 @@ constexpr std::size_t kMaxUnixPathLength = 107;
 constexpr std::array kSections{"sensor", "vehicle", "map", "initial_pose",
                                "filter", "matcher", "can", "realtime", "metrics"};
 
-bool is_ipv4(std::string_view text) {
-  in_addr address{};
-  return ::inet_pton(AF_INET, std::string(text).c_str(), &address) == 1 &&
-         text.find('\0') == std::string_view::npos;
-}
+bool is_ipv4(std::string_view text) { return parse_ipv4(text).has_value(); }
 
 bool is_port(std::string_view text) {
   std::uint16_t port = 0;
@@ -36,7 +32,12 @@ bool is_port(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size() && port != 0;
 }
 
-bool is_sensor_address(std::string_view text) { return text.empty() || is_ipv4(text); }
+bool is_host_address(std::string_view text) { return text.empty() || is_ipv4(text); }
+
+bool is_multicast_group(std::string_view text) {
+  const auto address = parse_ipv4(text);
+  return text.empty() || (address && is_multicast(*address));
+}
 
 bool is_metrics_address(std::string_view text) {
   constexpr std::string_view kUnix = "unix:";
@@ -62,9 +63,14 @@ void read_sensor(TomlSection section, SensorSettings& sensor) {
   section.require("model");
   section.read("model", sensor.model, is_sensor, sensor_names());
   section.read("calibration", sensor.calibration);
-  section.read("address", sensor.address, is_sensor_address,
+  section.read("address", sensor.address, is_host_address,
                R"(an IPv4 address such as "192.168.1.201", or "")");
   section.read<std::uint16_t>("port", sensor.port, {0, 65535});
+  section.read("multicast", sensor.multicast, is_multicast_group,
+               R"(an IPv4 multicast group, 224.0.0.0 to 239.255.255.255, or "")");
+  section.read("interface", sensor.interface, is_host_address,
+               R"(an IPv4 address of this computer such as "192.168.1.100", or "")");
+  section.read("receive_buffer_mib", sensor.receive_buffer_mib, {0.25, 1024.0});
   section.read("cut_deg", sensor.cut_deg, {0.0, 360.0});
   section.read("min_range_m", sensor.min_range_m, {0.0, 1000.0});
   section.read("max_range_m", sensor.max_range_m, {0.0, 1000.0});

@@ -19,6 +19,9 @@ struct SensorSettings {
   std::filesystem::path calibration;  ///< empty: the model's own angles
   std::string address;                ///< IPv4 of the sensor; empty: whoever sends
   std::uint16_t port = 0;             ///< UDP destination of its packets; 0: the model's
+  std::string multicast;              ///< group to which it sends; empty: unicast or broadcast
+  std::string interface;              ///< IPv4 of this computer at which it arrives; empty: any
+  double receive_buffer_mib = 16.0;   ///< of the kernel, for what arrives while the program does not read
   double cut_deg = 0.0;               ///< azimuth between sweeps, clockwise from the front, [0, 360)
   double min_range_m = 3.0;
   double max_range_m = 200.0;

@@ -30,6 +30,11 @@ class IpReassembly {
 
   /// Gives up what is still incomplete.
   void clear() noexcept;
+  /// As new.
+  void reset() noexcept {
+    clear();
+    counters_ = {};
+  }
 
   [[nodiscard]] const ReassemblyCounters& counters() const noexcept { return counters_; }
 

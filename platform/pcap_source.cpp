@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <exception>
+#include <fstream>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -52,6 +54,17 @@ std::optional<std::int64_t> stamp_utc_ns(const pcap_pkthdr& header) noexcept {
   return seconds * kSecond_ns + nanoseconds;
 }
 
+/// Whose records do not depend on what came before them, as those of pcapng do. False for what is no regular
+/// file, which can be read but once.
+bool is_classic_pcap(const std::filesystem::path& path) {
+  constexpr std::array<unsigned char, 4> kPcapng{0x0A, 0x0D, 0x0D, 0x0A};
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown)) return false;
+  std::array<unsigned char, 4> magic{};
+  std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(magic.data()), magic.size());
+  return magic != kPcapng;
+}
+
 }  // namespace
 
 void PcapSource::Close::operator()(pcap* handle) const noexcept { pcap_close(handle); }
@@ -73,6 +86,22 @@ void PcapSource::rewind() {
   std::error_code no_size;
   const auto size = std::filesystem::file_size(path_, no_size);
   total_bytes_ = no_size ? 0 : size;
+  first_record_ = is_classic_pcap(path_) ? ::ftello(pcap_file(capture_.get())) : -1;
+}
+
+bool PcapSource::restart() noexcept {
+  if (first_record_ >= 0) {
+    if (::fseeko(pcap_file(capture_.get()), first_record_, SEEK_SET) != 0) return false;
+    extractor_->reset();
+    read_error_ = "";
+    return true;
+  }
+  try {
+    rewind();
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
 }
 
 ReadStatus PcapSource::next(UdpPacket& packet) noexcept {

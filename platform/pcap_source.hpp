@@ -25,6 +25,10 @@ class PcapSource final : public PacketSource {
   /// Back to the first packet, counters at zero. Opens the file again: for set-up, and may throw as it did.
   void rewind();
 
+  /// The same, but a pcap file stays open, so that it does not allocate; a pcapng file is opened anew. False
+  /// where it cannot be done: a pipe, a file that is gone.
+  [[nodiscard]] bool restart() noexcept;
+
   [[nodiscard]] CaptureCounters counters() const noexcept { return extractor_->counters(); }
 
   /// Why `next` returned `truncated`, else empty.
@@ -44,6 +48,7 @@ class PcapSource final : public PacketSource {
   std::unique_ptr<UdpExtractor> extractor_;
   const char* read_error_ = "";
   std::uint64_t total_bytes_ = 0;
+  std::int64_t first_record_ = -1;  ///< where it begins in the file; -1: there is more to reading it again
 };
 
 }  // namespace landfix::platform

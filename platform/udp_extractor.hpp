@@ -39,6 +39,12 @@ class UdpExtractor {
   /// No more frames: fragments that still wait are dropped.
   void finish() noexcept { reassembly_.clear(); }
 
+  /// As new.
+  void reset() noexcept {
+    reassembly_.reset();
+    counters_ = {};
+  }
+
   [[nodiscard]] CaptureCounters counters() const noexcept;
 
  private:
