@@ -92,6 +92,7 @@ void read_map(TomlSection section, MapSettings& map) {
 
 void read_initial_pose(TomlSection section, InitialPoseSettings& initial_pose) {
   section.read("pose", initial_pose.pose);
+  section.read("resume", initial_pose.resume);
   section.finish();
 }
 
@@ -109,6 +110,7 @@ void read_filter(TomlSection section, ndt::FilterSettings& filter) {
 void read_matcher(TomlSection section, MatcherSettings& matcher) {
   section.read("resolution_m", matcher.resolution_m, {0.1, 20.0});
   section.read<int>("max_iterations", matcher.max_iterations, {1, 1000});
+  section.read("deadline_ms", matcher.deadline_ms, {0.0, 1000.0});
   section.finish();
 }
 

@@ -38,11 +38,13 @@ struct MapSettings {
 
 struct InitialPoseSettings {
   std::optional<ndt::Pose> pose;  ///< map <- vehicle
+  std::filesystem::path resume;   ///< where landfixd keeps the last good pose; empty: nowhere
 };
 
 struct MatcherSettings {
   double resolution_m = 1.0;  ///< the map's
   int max_iterations = 50;
+  double deadline_ms = 50.0;  ///< from a sweep's last packet to the end of its match; 0: none
 };
 
 struct CanSettings {

@@ -1,7 +1,7 @@
 #include "platform/receive_loop.hpp"
 
 #include "platform/monotonic_clock.hpp"
-#include "platform/sleep.hpp"
+#include "platform/sleep_until.hpp"
 
 namespace landfix::platform {
 

@@ -1,7 +1,7 @@
 #include "platform/solve_loop.hpp"
 
 #include "platform/monotonic_clock.hpp"
-#include "platform/sleep.hpp"
+#include "platform/sleep_until.hpp"
 #include "platform/utc_clock.hpp"
 
 namespace landfix::platform {

@@ -9,12 +9,17 @@
 
 #include "platform/atomic_file.hpp"
 #include "platform/candump_log.hpp"
+#include "platform/engine.hpp"
 #include "platform/evaluation.hpp"
+#include "platform/map_loader.hpp"
+#include "platform/pcap_receiver.hpp"
 #include "platform/pcap_source.hpp"
 #include "platform/pipeline.hpp"
 #include "platform/trajectory.hpp"
 #include "tools/capture_losses.hpp"
 #include "tools/command.hpp"
+#include "tools/engine_replay.hpp"
+#include "tools/engine_setup.hpp"
 #include "tools/evaluation_report.hpp"
 #include "tools/input_files.hpp"
 #include "tools/landfix_commands.hpp"
@@ -33,6 +38,8 @@ struct Arguments {
   std::string candump;
   std::string truth;
   std::string svg;
+  bool realtime = false;
+  std::uint64_t laps = 1;
   bool json = false;
 };
 
@@ -64,9 +71,45 @@ void warn_of_window(const platform::MapWindowCounters& counters) {
   }
 }
 
+[[nodiscard]] bool uses_threads(const Arguments& arguments) {
+  return arguments.realtime || arguments.laps > 1;
+}
+
+/// In this thread, packet after packet: as fast as can be, and the same whenever it is done again.
+[[nodiscard]] ReplayResult replay_at_once(const ReplaySetup& setup, const std::filesystem::path& capture,
+                                          platform::FrameSink* bus) {
+  platform::PcapSource source(capture);
+  platform::Pipeline pipeline(setup.settings, setup.decoder, setup.map(), bus, setup.window.get());
+  ReplayResult result = run_replay(source, pipeline, [&](const platform::SweepResult& sweep) {
+    if (setup.window) (void)setup.window->load();  // here, so that two replays are the same
+    show_progress(fmt::format("{:3.0f} %  {}", source.percent_read(), ndt::to_string(sweep.fix.state)));
+  });
+  warn_of_losses(capture.string(), source.counters());
+  return result;
+}
+
+/// In the threads of the vehicle. Where the laps are many, their results are counted, not kept.
+[[nodiscard]] ReplayResult replay_in_threads(const Arguments& arguments, const ReplaySetup& setup,
+                                             const std::filesystem::path& capture, platform::FrameSink* bus) {
+  const auto mode =
+      arguments.realtime ? platform::EngineMode::paced_replay : platform::EngineMode::fast_replay;
+  platform::PcapReceiver receiver(
+      pcap_settings(setup, capture, arguments.realtime ? 1.0 : 0.0, arguments.laps));
+  const bool keep_sweeps = arguments.laps == 1 || !arguments.trajectory.empty() || !arguments.truth.empty() ||
+                           !arguments.svg.empty();
+  platform::RunningEngine engine(platform::Engine(engine_settings(setup, mode), setup.decoder, setup.map(),
+                                                  setup.window.get(), receiver, bus));
+  for (const std::string& missing : engine.missing()) fmt::print(stderr, "landfix: {}\n", missing);
+  std::optional<platform::MapLoader> loader;  // after the memory was locked: its stack need not be
+  if (setup.window) loader.emplace(*setup.window);
+  std::size_t sweeps = 0;
+  return run_engine(engine, receiver.counters(), keep_sweeps, [&](const platform::SolvedSweep& sweep) {
+    show_progress(fmt::format("sweep {}  {}", ++sweeps, ndt::to_string(sweep.result.fix.state)));
+  });
+}
+
 void replay(const Arguments& arguments) {
   const ReplaySetup setup = prepare_replay(arguments.input);
-  const ndt::VoxelMap map = setup.map();
   const auto truth =
       arguments.truth.empty() ? std::vector<ndt::StampedPose>() : platform::read_tum(arguments.truth);
   std::optional<platform::CandumpLog> bus;
@@ -74,28 +117,23 @@ void replay(const Arguments& arguments) {
   const std::filesystem::path capture = arguments.pcap.empty()
                                             ? arguments.input.config.parent_path() / "capture.pcap"
                                             : std::filesystem::path(arguments.pcap);
-  platform::PcapSource source(capture);
-  platform::Pipeline pipeline(setup.settings, setup.decoder, map, bus ? &*bus : nullptr, setup.window.get());
-
-  const ReplayResult result = run_replay(source, pipeline, [&](const platform::SweepResult& sweep) {
-    if (setup.window) (void)setup.window->load();  // here, so that two replays are the same
-    show_progress(fmt::format("{:3.0f} %  {}", source.percent_read(), ndt::to_string(sweep.fix.state)));
-  });
+  platform::FrameSink* const sink = bus ? &*bus : nullptr;
+  const ReplayResult result = uses_threads(arguments) ? replay_in_threads(arguments, setup, capture, sink)
+                                                      : replay_at_once(setup, capture, sink);
   show_progress("");
-  warn_of_losses(capture.string(), source.counters());
   if (setup.window) warn_of_window(setup.window->counters());
-  if (result.sweeps.empty()) {
-    throw std::runtime_error(fmt::format(
-        "{}: no sweep of a {} on port {}: {} packets to it, {} rejected, {} from other "
-        "senders, {} to other ports; see `landfix decode --pcap`",
-        capture.string(), setup.model.name, setup.settings.port, pipeline.counters().packets,
-        pipeline.counters().rejected(), pipeline.counters().other_senders, pipeline.counters().other_ports));
+  if (result.tally.came() == 0) {
+    throw std::runtime_error(
+        fmt::format("{}: no sweep of a {} on port {}: {} packets to it, {} rejected, {} from other "
+                    "senders, {} to other ports; see `landfix decode --pcap`",
+                    capture.string(), setup.model.name, setup.settings.port, result.pipeline.packets,
+                    result.pipeline.rejected(), result.pipeline.other_senders, result.pipeline.other_ports));
   }
 
   const auto trajectory = result.trajectory();
   if (!arguments.trajectory.empty()) platform::write_tum(arguments.trajectory, trajectory);
   if (bus) bus->commit();
-  if (!arguments.svg.empty()) write_svg(arguments, map, trajectory, truth);
+  if (!arguments.svg.empty()) write_svg(arguments, setup.map(), trajectory, truth);
   ReplayReport report{.result = result, .evaluation = {}, .covariances = {}};
   if (!arguments.truth.empty() && !trajectory.empty()) {
     report.evaluation = platform::evaluate(truth, trajectory);
@@ -127,6 +165,15 @@ void add_replay_command(CLI::App& app) {
   add_file("--svg", arguments->svg, "OUT.svg", "draw the trajectory over the map");
   command.add_flag("--no-deskew{false}", arguments->input.deskew,
                    "leave the sweep's motion distortion in, to see what it costs");
+  command.add_flag("--realtime", arguments->realtime,
+                   "at the capture's own pace, in the vehicle's threads: shows latency and what is dropped");
+  command
+      .add_option(
+          "--loop", arguments->laps,
+          "run through the capture N times, in the vehicle's threads, its times shifted a lap each; for "
+          "routes that end where they begin")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1'000'000));
   add_json_option(command, arguments->json);
   command.callback([arguments] { replay(*arguments); });
 }

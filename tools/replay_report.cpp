@@ -22,10 +22,7 @@ namespace {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-/// Whose clock the stamps come from, at the end of the drive.
-[[nodiscard]] std::string_view time_source(const ReplayResult& result) {
-  return result.sweeps.empty() ? "none" : to_string(result.sweeps.back().time_source);
-}
+[[nodiscard]] double to_ms(std::int64_t ns) { return static_cast<double>(ns) * 1e-6; }
 
 struct StageTimes {
   std::string name;
@@ -35,7 +32,6 @@ struct StageTimes {
 };
 
 [[nodiscard]] std::vector<StageTimes> stage_times(const ReplayResult& result) {
-  const auto to_ms = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-6; };
   std::vector<StageTimes> stages;
   for (std::size_t i = 0; i < platform::kStageCount; ++i) {
     const auto stage = static_cast<platform::Stage>(i);
@@ -45,6 +41,15 @@ struct StageTimes {
                       to_ms(durations.percentile_ns(99.0)), to_ms(durations.max_ns())});
   }
   return stages;
+}
+
+/// Null where there was no pace to be late against.
+[[nodiscard]] nlohmann::ordered_json latency_ms(const platform::LatencyHistogram& total) {
+  if (total.count() == 0) return nullptr;
+  return {{"p50", to_ms(total.percentile_ns(50.0))},
+          {"p99", to_ms(total.percentile_ns(99.0))},
+          {"p999", to_ms(total.percentile_ns(99.9))},
+          {"max", to_ms(total.max_ns())}};
 }
 
 }  // namespace
@@ -58,17 +63,17 @@ nlohmann::ordered_json to_json(const ReplayReport& report) {
     stages[stage.name] = {{"p50", stage.p50_ms}, {"p99", stage.p99_ms}, {"max", stage.max_ms}};
   }
   nlohmann::ordered_json object;
-  object["sweeps"] = result.sweeps.size() - result.missing();
-  object["missing"] = result.missing();
+  object["sweeps"] = result.tally.came();
+  object["missing"] = result.tally.missing();
   object["poses"] = result.trajectory().size();
-  object["tracked"] = result.count(ndt::State::tracking);
-  object["lost"] = result.count(ndt::State::lost);
-  object["partial"] = result.partial();
-  object["time_source"] = time_source(result);
+  object["tracked"] = result.tally.count(ndt::State::tracking);
+  object["lost"] = result.tally.count(ndt::State::lost);
+  object["partial"] = result.tally.partial();
+  object["time_source"] = to_string(result.tally.time_source());
   object["packets"] = {{"total", counters.packets},
                        {"rejected", counters.rejected()},
                        {"lost", stream.lost_packets},
-                       {"dropped", 0},  // a replay reads as fast as it solves
+                       {"dropped", result.packets_dropped},
                        {"other_senders", counters.other_senders},
                        {"other_ports", counters.other_ports}};
   object["points_dropped"] = {{"sweep_full", counters.points_overflowed},
@@ -77,9 +82,11 @@ nlohmann::ordered_json to_json(const ReplayReport& report) {
   object["clock_steps"] = stream.clock_steps;
   object["restarts"] = stream.restarts;
   object["can_frames"] = {{"dropped", result.frames_dropped}, {"saturated", result.poses_saturated}};
-  object["points_mean"] = result.points_mean();
-  object["iterations_mean"] = result.iterations_mean();
-  object["latency_ms"] = nullptr;
+  object["points_mean"] = result.tally.points_mean();
+  object["iterations_mean"] = result.tally.iterations_mean();
+  object["sweeps_skipped"] = result.sweeps_skipped;
+  object["deadline_misses"] = result.deadline_misses;
+  object["latency_ms"] = latency_ms(result.duration(platform::Stage::total));
   object["stage_ms"] = stages;
   object["heap_calls"] =
       result.heap_calls ? nlohmann::ordered_json(*result.heap_calls) : nlohmann::ordered_json();
@@ -101,25 +108,29 @@ std::string to_text(const ReplayReport& report) {
   const ReplayResult& result = report.result;
   const platform::PipelineCounters& counters = report.result.pipeline;
   const drivers::StreamCounters& stream = report.result.stream;
-  const auto count = [&result](ndt::State state) { return result.count(state); };
+  const auto count = [&result](ndt::State state) { return result.tally.count(state); };
   std::string text = fmt::format(
       "sweeps       {}, and {} missing: {} tracking, {} degraded, {} predicted, {} lost, {} without data, "
       "{} before the first match\n"
       "             {} partial; stamps by the {} clock\n"
       "packets      {}, {} rejected, {} lost; {} from other senders, {} to other ports\n"
       "iterations   {:.2f} a sweep on average\n",
-      result.sweeps.size() - result.missing(), result.missing(), count(ndt::State::tracking),
-      count(ndt::State::degraded), count(ndt::State::predicted), count(ndt::State::lost),
-      count(ndt::State::no_data), count(ndt::State::init), result.partial(), time_source(result),
+      result.tally.came(), result.tally.missing(), count(ndt::State::tracking), count(ndt::State::degraded),
+      count(ndt::State::predicted), count(ndt::State::lost), count(ndt::State::no_data),
+      count(ndt::State::init), result.tally.partial(), to_string(result.tally.time_source()),
       counters.packets, counters.rejected(), stream.lost_packets, counters.other_senders,
-      counters.other_ports, result.iterations_mean());
+      counters.other_ports, result.tally.iterations_mean());
   for (const auto& [reason, packets] : rejections(counters.by_status)) {
     text += fmt::format("  rejected   {}: {}\n", packets, reason);
   }
   if (stream.clock_steps != 0) text += fmt::format("             {} steps of a clock\n", stream.clock_steps);
   if (stream.restarts != 0) text += fmt::format("             {} restarts of the sensor\n", stream.restarts);
-  const std::array<std::pair<std::uint64_t, std::string_view>, 5> losses{
-      {{counters.points_overflowed, "points that did not fit the sweep"},
+  const std::array<std::pair<std::uint64_t, std::string_view>, 9> losses{
+      {{result.packets_dropped, "packets that found the ring full"},
+       {result.sweeps_skipped, "sweeps that were predicted, not matched, as newer packets were waiting"},
+       {result.deadline_misses, "matches that were stopped at the deadline"},
+       {result.results_dropped, "poses that found no room between the threads"},
+       {counters.points_overflowed, "points that did not fit the sweep"},
        {counters.points_unfiltered, "points that did not fit the filter, or were not finite"},
        {counters.pairs_dropped, "pairs of a point and a voxel that did not fit the matcher"},
        {result.frames_dropped, "CAN frames that could not be written"},

@@ -1,28 +1,9 @@
 #include "tools/replay_run.hpp"
 
-#include <algorithm>
-#include <limits>
-
 #include "platform/heap_counter.hpp"
 #include "platform/page_faults.hpp"
 
 namespace landfix::tools {
-namespace {
-
-template <class Value>
-[[nodiscard]] double mean_of(const std::vector<platform::SweepResult>& sweeps, Value value) {
-  double sum = 0.0;
-  double count = 0.0;
-  for (const platform::SweepResult& sweep : sweeps) {
-    if (sweep.missing) continue;
-    sum += static_cast<double>(value(sweep));
-    count += 1.0;
-  }
-  return count > 0.0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
-}
-
-}  // namespace
-
 std::vector<ndt::StampedPose> ReplayResult::trajectory() const {
   std::vector<ndt::StampedPose> poses;
   for (const platform::SweepResult& sweep : sweeps) {
@@ -31,31 +12,6 @@ std::vector<ndt::StampedPose> ReplayResult::trajectory() const {
     if (rises && ndt::is_usable(sweep.fix.state)) poses.push_back(sweep.fix.at);
   }
   return poses;
-}
-
-std::size_t ReplayResult::count(ndt::State state) const {
-  return static_cast<std::size_t>(
-      std::count_if(sweeps.begin(), sweeps.end(),
-                    [state](const platform::SweepResult& sweep) { return sweep.fix.state == state; }));
-}
-
-std::size_t ReplayResult::missing() const {
-  return static_cast<std::size_t>(std::count_if(
-      sweeps.begin(), sweeps.end(), [](const platform::SweepResult& sweep) { return sweep.missing; }));
-}
-
-std::size_t ReplayResult::partial() const {
-  return static_cast<std::size_t>(
-      std::count_if(sweeps.begin(), sweeps.end(),
-                    [](const platform::SweepResult& sweep) { return !sweep.missing && !sweep.complete; }));
-}
-
-double ReplayResult::iterations_mean() const {
-  return mean_of(sweeps, [](const platform::SweepResult& sweep) { return sweep.fix.match.iterations; });
-}
-
-double ReplayResult::points_mean() const {
-  return mean_of(sweeps, [](const platform::SweepResult& sweep) { return sweep.points_filtered; });
 }
 
 ReplayResult run_replay(platform::PacketSource& source, platform::Pipeline& pipeline,
@@ -77,6 +33,7 @@ ReplayResult run_replay(platform::PacketSource& source, platform::Pipeline& pipe
     const platform::PageFaults after = platform::thread_page_faults();
     result.page_faults += after.minor - before.minor + after.major - before.major;
     if (sweep) {
+      result.tally.add(*sweep);
       result.sweeps.push_back(*sweep);
       on_sweep(*sweep);
     }

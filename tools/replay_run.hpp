@@ -9,11 +9,13 @@
 #include "ndt/pose.hpp"
 #include "platform/pcap_source.hpp"
 #include "platform/pipeline.hpp"
+#include "tools/replay_tally.hpp"
 
 namespace landfix::tools {
 
 struct ReplayResult {
   std::vector<platform::SweepResult> sweeps;  ///< in the order of publishing, with the missing ones
+  ReplayTally tally;                          ///< of all of them, also where they are not kept
   platform::PipelineCounters pipeline;
   drivers::StreamCounters stream;
   std::uint64_t frames_dropped = 0;                   ///< that the bus did not take
@@ -21,21 +23,21 @@ struct ReplayResult {
   std::vector<platform::LatencyHistogram> durations;  ///< by Stage
   bool truncated = false;                             ///< the capture ends in the middle of a record
 
+  // Of a replay in threads that was too fast for this computer.
+  std::uint64_t packets_dropped = 0;  ///< the ring was full
+  std::uint64_t sweeps_skipped = 0;   ///< not matched, as newer packets were waiting
+  std::uint64_t deadline_misses = 0;  ///< matches that were stopped in time
+  std::uint64_t results_dropped = 0;
+
   // In receiving, solving and publishing, not in keeping the results; nothing where it cannot be counted.
   std::optional<std::uint64_t> heap_calls;
   std::int64_t page_faults = 0;
 
   /// The usable poses: PREDICTED, DEGRADED, TRACKING; with rising stamps.
   [[nodiscard]] std::vector<ndt::StampedPose> trajectory() const;
-  [[nodiscard]] std::size_t count(ndt::State state) const;
-  [[nodiscard]] std::size_t missing() const;  ///< of `sweeps`, those that have not come
-  [[nodiscard]] std::size_t partial() const;  ///< of those that came, the ones that are not whole turns
   [[nodiscard]] const platform::LatencyHistogram& duration(platform::Stage stage) const {
     return durations[static_cast<std::size_t>(stage)];
   }
-  // Of those that came; NaN where none did.
-  [[nodiscard]] double iterations_mean() const;
-  [[nodiscard]] double points_mean() const;  ///< after the filter
 };
 
 /// Feeds all of `source` to the pipeline. `on_sweep` is called after each sweep, for progress.

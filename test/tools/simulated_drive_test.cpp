@@ -296,7 +296,7 @@ TEST_F(SimulatedDrive, PacketsThatComeTwiceOrInTheWrongOrderDoNotLoseTheTrack) {
   platform::Pipeline pipeline(setup.settings, setup.decoder, setup.map(), nullptr);
   DisorderedSource source(path("capture.pcap"));
   const ReplayResult result = run_replay(source, pipeline, [](const platform::SweepResult&) {});
-  EXPECT_EQ(result.count(ndt::State::lost), 0U);
+  EXPECT_EQ(result.tally.count(ndt::State::lost), 0U);
   const auto& by_status = pipeline.counters().by_status;
   EXPECT_GT(by_status[static_cast<std::size_t>(drivers::DecodeStatus::duplicate)], 100U);
   // Few are overtaken just where the turn ends; those are lost for their sweep, and no other is.
@@ -362,10 +362,10 @@ void expect_tracking_is_true(const ReplayResult& result, const std::string& trut
 
 TEST_F(SimulatedDrive, MissingSweepsArePredicted) {
   const ReplayResult result = replay_with_silence(path(""), 0.3);
-  EXPECT_GE(result.missing(), 2U);
-  EXPECT_LE(result.missing(), 3U);
-  EXPECT_EQ(result.count(ndt::State::no_data), 0U);
-  EXPECT_EQ(result.count(ndt::State::lost), 0U);
+  EXPECT_GE(result.tally.missing(), 2U);
+  EXPECT_LE(result.tally.missing(), 3U);
+  EXPECT_EQ(result.tally.count(ndt::State::no_data), 0U);
+  EXPECT_EQ(result.tally.count(ndt::State::lost), 0U);
   for (const platform::SweepResult& sweep : result.sweeps) {
     EXPECT_LE(sweep.fix.at.stamp_utc_ns - sweep.seen_utc_ns, sweep.missing ? 400'000'000 : 0);
     if (sweep.missing) EXPECT_EQ(sweep.fix.state, ndt::State::predicted);
@@ -385,7 +385,7 @@ TEST_F(SimulatedDrive, MissingSweepsArePredicted) {
 
 TEST_F(SimulatedDrive, ASilentSensorIsNoDataAfterASecond) {
   const ReplayResult result = replay_with_silence(path(""), 3.0);
-  EXPECT_EQ(result.count(ndt::State::no_data), 4U);  // twice a second
+  EXPECT_EQ(result.tally.count(ndt::State::no_data), 4U);  // twice a second
   std::size_t predicted = 0;
   for (const platform::SweepResult& sweep : result.sweeps) {
     const bool is_prediction = sweep.missing && sweep.fix.state == ndt::State::predicted;

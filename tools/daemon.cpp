@@ -1,0 +1,106 @@
+#include "tools/daemon.hpp"
+
+#include <csignal>
+#include <ctime>
+#include <exception>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "platform/engine.hpp"
+#include "platform/map_loader.hpp"
+#include "platform/monotonic_clock.hpp"
+#include "platform/saved_pose.hpp"
+#include "platform/service_notifier.hpp"
+#include "platform/socket_can.hpp"
+#include "platform/udp_receiver.hpp"
+#include "platform/udp_settings.hpp"
+#include "tools/engine_setup.hpp"
+#include "tools/house.hpp"
+#include "tools/journal.hpp"
+#include "tools/replay_setup.hpp"
+
+namespace landfix::tools {
+namespace {
+
+/// The signals that the daemon heeds, kept for it to ask for: no thread is ever interrupted.
+class Signals {
+ public:
+  /// To be made before any thread is.
+  Signals() noexcept {
+    sigemptyset(&set_);
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&set_, signal);
+    pthread_sigmask(SIG_BLOCK, &set_, nullptr);
+  }
+  /// The next one, waited for at most so long; 0: none.
+  [[nodiscard]] int wait(std::int64_t longest_ns) const noexcept {
+    const timespec longest{.tv_sec = 0, .tv_nsec = longest_ns};
+    const int signal = sigtimedwait(&set_, nullptr, &longest);
+    return signal > 0 ? signal : 0;
+  }
+
+ private:
+  sigset_t set_{};
+};
+
+/// The last good pose of the run before, in place of the configuration's, if it is of the same map.
+void resume(ReplaySetup& setup) {
+  const std::filesystem::path& path = setup.configuration.initial_pose.resume;
+  if (path.empty() || !std::filesystem::exists(path)) return;
+  try {
+    const platform::SavedPose saved = platform::read_saved_pose(path);
+    if (saved.map_checksum != setup.map_checksum()) {
+      log_line(Severity::notice, fmt::format("{}: is of another map; not resumed", path.string()));
+      return;
+    }
+    setup.settings.initial_pose = saved.at.pose;
+    const Eigen::Vector3d& place_m = saved.at.pose.translation();
+    log_line(Severity::info, fmt::format("resuming at {:.2f} {:.2f} {:.2f}, as kept in {}", place_m.x(),
+                                         place_m.y(), place_m.z(), path.string()));
+  } catch (const std::exception& error) {
+    log_line(Severity::warning, fmt::format("not resumed: {}", error.what()));
+  }
+}
+
+void keep_house(platform::RunningEngine& engine, House& house, const Signals& signals) {
+  constexpr std::int64_t kTurn_ns = 50'000'000;
+  for (;;) {
+    const int signal = signals.wait(kTurn_ns);
+    if (signal == SIGTERM || signal == SIGINT) return;
+    if (signal == SIGHUP) {
+      log_line(Severity::warning, "SIGHUP: the configuration is read at the start only; restart instead");
+    }
+    house.turn(platform::monotonic_ns());
+    (void)engine;
+  }
+}
+
+}  // namespace
+
+void run_daemon(const std::filesystem::path& config) {
+  const Signals signals;
+  const platform::ServiceNotifier notifier;
+  ReplaySetup setup = prepare_replay({.config = config});
+  resume(setup);
+  platform::UdpReceiver receiver(platform::udp_settings(setup.configuration.sensor, setup.model));
+  for (const std::string& warning : receiver.warnings()) log_line(Severity::warning, warning);
+  platform::SocketCan bus(setup.configuration.can.interface, setup.configuration.can.fd);
+  platform::RunningEngine engine(platform::Engine(engine_settings(setup, platform::EngineMode::live),
+                                                  setup.decoder, setup.map(), setup.window.get(), receiver,
+                                                  &bus));
+  for (const std::string& missing : engine.missing()) log_line(Severity::warning, missing);
+  std::optional<platform::MapLoader> loader;  // after the memory was locked: its stack need not be
+  if (setup.window) loader.emplace(*setup.window);
+
+  House house(engine, notifier,
+              {.resume = setup.configuration.initial_pose.resume, .map_checksum = setup.map_checksum()});
+  notifier.ready("ready");
+  log_line(Severity::info, fmt::format("{} on port {}, poses on {}", setup.model.display_name,
+                                       setup.settings.port, setup.configuration.can.interface));
+  keep_house(engine, house, signals);
+  notifier.stopping("stopping");
+  engine.stop();
+  house.close();
+}
+
+}  // namespace landfix::tools

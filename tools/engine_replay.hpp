@@ -1,0 +1,18 @@
+// A replay through the vehicle's own threads, and what came out of it.
+#pragma once
+
+#include <functional>
+
+#include "platform/engine.hpp"
+#include "platform/packet_receiver.hpp"
+#include "tools/replay_run.hpp"
+
+namespace landfix::tools {
+
+/// Until the packets have ended and everything is sent. `on_sweep` is called after each sweep, in this
+/// thread. `keep_sweeps`: else only their tally is kept, so that memory does not grow with the replay.
+[[nodiscard]] ReplayResult run_engine(platform::RunningEngine& engine,
+                                      const platform::ReceiveCounters& received, bool keep_sweeps,
+                                      const std::function<void(const platform::SolvedSweep&)>& on_sweep);
+
+}  // namespace landfix::tools
