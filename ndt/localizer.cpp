@@ -15,21 +15,8 @@ namespace {
 }  // namespace
 
 std::string_view to_string(State state) noexcept {
-  switch (state) {
-    case State::init:
-      return "INIT";
-    case State::no_data:
-      return "NO_DATA";
-    case State::lost:
-      return "LOST";
-    case State::predicted:
-      return "PREDICTED";
-    case State::degraded:
-      return "DEGRADED";
-    case State::tracking:
-      return "TRACKING";
-  }
-  return "UNKNOWN";
+  const auto number = static_cast<std::size_t>(state);
+  return number < kStateNames.size() ? kStateNames[number] : "UNKNOWN";
 }
 
 std::string_view to_string(Fit fit) noexcept {

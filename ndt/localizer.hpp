@@ -1,6 +1,7 @@
 // The state machine around the matcher: from one pose to the next, and what may be said of each.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -24,6 +25,8 @@ enum class State : std::uint8_t {
   degraded = 4,   ///< matched, but the map explains the sweep badly, or does not hold every direction
   tracking = 5,
 };
+inline constexpr std::array<std::string_view, 6> kStateNames{"INIT",      "NO_DATA",  "LOST",
+                                                             "PREDICTED", "DEGRADED", "TRACKING"};
 [[nodiscard]] std::string_view to_string(State state) noexcept;
 
 /// Whether a pose of this state is one: PREDICTED, DEGRADED, TRACKING.

@@ -86,6 +86,7 @@ void read_vehicle(TomlSection section, VehicleSettings& vehicle) {
 
 void read_map(TomlSection section, MapSettings& map) {
   section.read("file", map.file);
+  section.read("projector", map.projector);
   section.read("memory_mib", map.memory_mib, {0.0, 1e6});
   section.finish();
 }

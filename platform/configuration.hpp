@@ -33,6 +33,7 @@ struct VehicleSettings {
 
 struct MapSettings {
   std::filesystem::path file;  ///< empty: must come from elsewhere
+  std::filesystem::path projector;  ///< Autoware's map_projector_info.yaml; empty: none
   double memory_mib = 0.0;     ///< that a map may take, else a window of it; 0: as much as it needs
 };
 

@@ -1,6 +1,8 @@
 #include "platform/frame_description.hpp"
 
+#include <algorithm>
 #include <array>
+#include <charconv>
 #include <span>
 #include <string_view>
 
@@ -46,19 +48,19 @@ std::string start_value(const Signal& signal) {
 
 /// Without an exponent: not every reader of DBC files takes one.
 std::string decimal(double value) {
-  std::string text = fmt::format("{:.9f}", value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
+  std::array<char, 64> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed).ptr;
+  return {text.data(), end};
 }
 
-/// What so many steps are, with the decimals of one.
+/// What so many steps are, with the decimals of one, as far as they tell anything.
 std::string physical(const Signal& signal, double steps) {
   if (steps == 0.0) return "0";
   const std::string step = decimal(signal.scale);
   const std::size_t point = step.find('.');
+  constexpr std::size_t kMostDecimals = 12;
   return fmt::format("{:.{}f}", steps * signal.scale,
-                     point == std::string::npos ? 0 : step.size() - point - 1);
+                     point == std::string::npos ? 0 : std::min(step.size() - point - 1, kMostDecimals));
 }
 
 /// "s24 0.001 m"; of a code, "u4".

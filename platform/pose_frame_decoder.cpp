@@ -36,10 +36,7 @@ DecodedFrame PoseFrameDecoder::decode(const CanFrame& frame, std::int64_t stamp_
   const auto index = static_cast<std::size_t>(layout - kFrameLayouts.data());
   if (has_format_of(*layout, frame)) result.check = checkers_[index].check(frame.payload());
   if (!is_accepted(result.check.status)) return result;
-  if (index == kMapFrameIndex) {
-    decode_frame(*layout, frame.payload(), map_);
-    return result;
-  }
+  if (take_slower(index, frame, result)) return result;
   if (last_utc_ns_ && stamp_utc_ns - *last_utc_ns_ > kTimeout_ns) {
     result.silence_ns = stamp_utc_ns - *last_utc_ns_;
   }
@@ -50,6 +47,22 @@ DecodedFrame PoseFrameDecoder::decode(const CanFrame& frame, std::int64_t stamp_
     add_to_pose(index, frame, stamp_utc_ns, result);
   }
   return result;
+}
+
+bool PoseFrameDecoder::take_slower(std::size_t index, const CanFrame& frame, DecodedFrame& result) noexcept {
+  if (index == kMapFrameIndex) {
+    decode_frame(kFrameLayouts[index], frame.payload(), map_);
+  } else if (index == kLatitudeFrameIndex) {
+    decode_frame(kFrameLayouts[index], frame.payload(), geodetic_);
+    latitude_counter_ = result.check.counter;
+  } else if (index == kLongitudeFrameIndex) {
+    decode_frame(kFrameLayouts[index], frame.payload(), geodetic_);
+    if (latitude_counter_ == result.check.counter) result.geodetic = geodetic_;
+    latitude_counter_.reset();
+  } else {
+    return false;
+  }
+  return true;
 }
 
 void PoseFrameDecoder::add_to_pose(std::size_t index, const CanFrame& frame, std::int64_t stamp_utc_ns,

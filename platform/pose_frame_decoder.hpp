@@ -22,6 +22,8 @@ struct DecodedFrame {
   std::size_t frames_missing = 0;       ///< of the pose before, which is given up
   std::int64_t silence_ns = 0;          ///< since the last pose frame, where that is longer than the time-out
   std::optional<PoseReport> pose{};     ///< that this frame completes
+  /// Latitude, longitude, zone and state alone, when both frames are there.
+  std::optional<PoseReport> geodetic{};
 
   /// Something is wrong on the bus.
   [[nodiscard]] bool has_fault() const noexcept {
@@ -50,6 +52,8 @@ class PoseFrameDecoder {
   [[nodiscard]] std::size_t frames_missing() const noexcept;
 
  private:
+  /// What comes less often than poses; false: it is not one of those.
+  [[nodiscard]] bool take_slower(std::size_t index, const CanFrame& frame, DecodedFrame& result) noexcept;
   void add_to_pose(std::size_t index, const CanFrame& frame, std::int64_t stamp_utc_ns,
                    DecodedFrame& result) noexcept;
   [[nodiscard]] bool has(std::size_t index) const noexcept { return (seen_ >> index & 1U) != 0; }
@@ -57,6 +61,9 @@ class PoseFrameDecoder {
   std::uint32_t base_id_;
   std::array<E2eChecker, kFrameLayouts.size()> checkers_{};
   std::optional<std::int64_t> last_utc_ns_;  ///< receipt of the last accepted pose frame
+
+  PoseReport geodetic_;
+  std::optional<std::uint8_t> latitude_counter_;  ///< of the latitude that waits for its longitude
 
   // The pose that is begun, of classic frames.
   PoseReport report_;

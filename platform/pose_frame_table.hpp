@@ -10,6 +10,7 @@
 #include <span>
 #include <string_view>
 
+#include "ndt/localizer.hpp"
 #include "platform/can_frame.hpp"
 #include "platform/can_signal.hpp"
 #include "platform/e2e.hpp"
@@ -36,8 +37,7 @@ struct FrameLayout {
 
 namespace pose_frame_table {
 
-inline constexpr std::array<std::string_view, 6> kStates{"INIT",      "NO_DATA",  "LOST",
-                                                         "PREDICTED", "DEGRADED", "TRACKING"};
+inline constexpr std::span<const std::string_view> kStates = ndt::kStateNames;
 inline constexpr std::array<std::string_view, 2> kTimeSources{"SENSOR_CLOCK", "RECEIPT"};
 inline constexpr std::array<std::string_view, 2> kNoYes{"NO", "YES"};
 inline constexpr std::array<std::string_view, 6> kProjectors{
@@ -100,10 +100,25 @@ inline constexpr std::array kTime{
     Signal{"LOC_STAMP", &R::stamp_utc_ns, unsigned_at(16, 48), 1e-5, "s",
            "time that the pose holds for, since 1970-01-01 UTC without leap seconds"},
 };
+/// As NovAtel's receivers give it: 0.04 mm.
+inline constexpr double kGeodeticStep_deg = 180.0 / static_cast<double>(std::int64_t{1} << 39);
+inline constexpr std::array kLatitude{
+    Signal{"LOC_LATITUDE", &R::latitude_deg, signed_at(16, 40), kGeodeticStep_deg, "deg",
+           "of the rear axle centre on WGS84, positive: north"},
+    Signal{"LOC_UTM_ZONE", &R::utm_zone, unsigned_at(56, 8), 1.0, "",
+           "that the map is projected by, 1 to 60; 0: by none"},
+};
+inline constexpr std::array kLongitude{
+    Signal{"LOC_LONGITUDE", &R::longitude_deg, signed_at(16, 40), kGeodeticStep_deg, "deg",
+           "of the rear axle centre on WGS84, positive: east"},
+    Signal{"LOC_GEODETIC_STATE", &R::state, unsigned_at(56, 8), 1.0, "", kState, kStates},
+};
 inline constexpr std::array kMap{
     Signal{"LOC_MAP_HASH", &R::map_hash, unsigned_at(16, 16), 1.0, "", "tells one map from another"},
     Signal{"LOC_MAP_ORIGIN", &R::map_origin, unsigned_at(32, 8), 1.0, "",
-           "which of the map's origins positions are relative to; 0: its zero"},
+           "which of the map's origins positions are relative to: in steps of 8000 m, bits 0 to 3 along x, 4 "
+           "to 7 "
+           "along y"},
     Signal{"LOC_MAP_PROJECTOR", &R::map_projector, unsigned_at(40, 8), 1.0, "",
            "how the map's x and y come from latitude and longitude", kProjectors},
     Signal{"LOC_MAP_DATUM", &R::map_datum, unsigned_at(48, 8), 1.0, "", "what heights are above", kDatums},
@@ -142,7 +157,7 @@ inline constexpr std::array kPose{
 
 }  // namespace pose_frame_table
 
-/// Offsets 6 and 7 are kept for latitude and longitude.
+/// The offsets are the indices.
 inline constexpr std::array kFrameLayouts{
     FrameLayout{0, "LOC_POSITION", false, 0, "where", pose_frame_table::kPosition},
     FrameLayout{1, "LOC_ATTITUDE", false, 0, "which way round", pose_frame_table::kAttitude},
@@ -150,12 +165,18 @@ inline constexpr std::array kFrameLayouts{
     FrameLayout{3, "LOC_ACCURACY", false, 0, "how well that is known", pose_frame_table::kAccuracy},
     FrameLayout{4, "LOC_STATUS", false, 0, "what it is worth", pose_frame_table::kStatus},
     FrameLayout{5, "LOC_TIME", false, 0, "when it holds", pose_frame_table::kTime},
+    FrameLayout{6, "LOC_GEODETIC_LAT", false, 100, "where on Earth, if the map tells",
+                pose_frame_table::kLatitude},
+    FrameLayout{7, "LOC_GEODETIC_LON", false, 100, "where on Earth, if the map tells",
+                pose_frame_table::kLongitude},
     FrameLayout{8, "LOC_MAP", false, 1000, "in which map", pose_frame_table::kMap},
     FrameLayout{9, "LOC_POSE", true, 0, "all of it at once", pose_frame_table::kPose},
 };
 inline constexpr std::size_t kClassicPoseFrames = 6;
-inline constexpr std::size_t kMapFrameIndex = 6;
-inline constexpr std::size_t kFdPoseFrameIndex = 7;
+inline constexpr std::size_t kLatitudeFrameIndex = 6;
+inline constexpr std::size_t kLongitudeFrameIndex = 7;
+inline constexpr std::size_t kMapFrameIndex = 8;
+inline constexpr std::size_t kFdPoseFrameIndex = 9;
 inline constexpr std::uint16_t kFramesVersion = 1;
 
 /// The frames that a pose is sent in.
@@ -175,7 +196,7 @@ inline constexpr std::uint32_t kMaxBaseId = 0x7FF - kFrameLayouts.back().id_offs
   for (const Signal& signal : layout.signals) {
     const Bits& bits = signal.bits;
     const bool is_number = std::holds_alternative<double PoseReport::*>(signal.field);
-    if (bits.length == 0 || bits.length > (is_number ? 32 : 64) || (signal.is_code() && bits.length > 16)) {
+    if (bits.length == 0 || bits.length > (is_number ? 48 : 64) || (signal.is_code() && bits.length > 16)) {
       return false;
     }
     if (bits.start + bits.length > 8 * layout.length()) return false;

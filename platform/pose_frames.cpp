@@ -34,11 +34,21 @@ void decode_frame(const FrameLayout& layout, std::span<const std::byte> payload,
   for (const Signal& signal : layout.signals) decode_signal(signal, get_bits(payload, signal.bits), report);
 }
 
-bool PoseFrameEncoder::is_map_due(std::int64_t stamp_utc_ns) const noexcept {
-  constexpr std::int64_t kPeriod_ns = std::int64_t{kFrameLayouts[kMapFrameIndex].period_ms} * 1'000'000;
+void PoseFrameEncoder::add_slower(std::span<const FrameLayout> layouts, const PoseReport& report,
+                                  Slower& slower, PoseFrames& result) const noexcept {
+  // Poses that are late by a little do not halve the rate.
+  constexpr std::int64_t kTolerance_ns = 20'000'000;
+  const std::int64_t period_ns = std::int64_t{layouts.front().period_ms} * 1'000'000;
+  const std::int64_t now_utc_ns = report.stamp_utc_ns;
   // A clock that was set back does not silence it.
-  return !map_sent_utc_ns_ || stamp_utc_ns < *map_sent_utc_ns_ ||
-         stamp_utc_ns - *map_sent_utc_ns_ >= kPeriod_ns;
+  const bool is_due = !slower.sent_utc_ns || now_utc_ns < *slower.sent_utc_ns ||
+                      now_utc_ns - *slower.sent_utc_ns + kTolerance_ns >= period_ns;
+  if (!is_due) return;
+  for (const FrameLayout& layout : layouts) {
+    result.frames[result.count++] = encode_frame(layout, base_id_, slower.counter, report);
+  }
+  slower.counter = next_e2e_counter(layouts.front().profile(), slower.counter);
+  slower.sent_utc_ns = now_utc_ns;
 }
 
 PoseFrames PoseFrameEncoder::encode(const PoseReport& report) noexcept {
@@ -50,12 +60,9 @@ PoseFrames PoseFrameEncoder::encode(const PoseReport& report) noexcept {
     result.frames[result.count++] = encode_frame(layout, base_id_, counter_, sent);
   }
   counter_ = next_e2e_counter(layouts.front().profile(), counter_);
-  if (is_map_due(report.stamp_utc_ns)) {
-    constexpr const FrameLayout& kMap = kFrameLayouts[kMapFrameIndex];
-    result.frames[result.count++] = encode_frame(kMap, base_id_, map_counter_, sent);
-    map_counter_ = next_e2e_counter(kMap.profile(), map_counter_);
-    map_sent_utc_ns_ = report.stamp_utc_ns;
-  }
+  constexpr std::span kLayouts(kFrameLayouts);
+  if (is_geodetic_) add_slower(kLayouts.subspan(kLatitudeFrameIndex, 2), sent, geodetic_, result);
+  add_slower(kLayouts.subspan(kMapFrameIndex, 1), sent, map_, result);
   return result;
 }
 

@@ -22,7 +22,7 @@ void decode_frame(const FrameLayout& layout, std::span<const std::byte> payload,
 
 /// What is sent for one pose, in this order.
 struct PoseFrames {
-  std::array<CanFrame, kClassicPoseFrames + 1> frames{};
+  std::array<CanFrame, kClassicPoseFrames + 3> frames{};
   std::size_t count = 0;
   bool saturated = false;  ///< a value was beyond what its signal can hold
 
@@ -31,23 +31,33 @@ struct PoseFrames {
   [[nodiscard]] std::span<const CanFrame> all() const&& noexcept = delete;
 };
 
-/// Counts on from pose to pose: the frames of one pose share one counter. LOC_MAP, once a second, has its
-/// own.
+/// Counts on from pose to pose: the frames of one pose share one counter. Latitude and longitude, ten times a
+/// second, share another, and LOC_MAP, once a second, has its own.
 class PoseFrameEncoder {
  public:
-  /// `fd`: each pose is one frame of CAN FD instead of six of classic CAN.
-  PoseFrameEncoder(std::uint32_t base_id, bool fd) noexcept : base_id_(base_id), fd_(fd) {}
+  /// `fd`: each pose is one frame of CAN FD instead of six of classic CAN. `is_geodetic`: latitude and
+  /// longitude are sent; they are not available where the position is not.
+  PoseFrameEncoder(std::uint32_t base_id, bool fd, bool is_geodetic = false) noexcept
+      : base_id_(base_id), fd_(fd), is_geodetic_(is_geodetic) {}
 
   [[nodiscard]] PoseFrames encode(const PoseReport& report) noexcept;
 
  private:
-  [[nodiscard]] bool is_map_due(std::int64_t stamp_utc_ns) const noexcept;
+  /// Frames that are not sent with every pose.
+  struct Slower {
+    std::uint8_t counter = 0;
+    std::optional<std::int64_t> sent_utc_ns{};
+  };
+  /// Those of the layouts, one counter for all, if they are due.
+  void add_slower(std::span<const FrameLayout> layouts, const PoseReport& report, Slower& slower,
+                  PoseFrames& result) const noexcept;
 
   std::uint32_t base_id_;
   bool fd_;
+  bool is_geodetic_;
   std::uint8_t counter_ = 0;
-  std::uint8_t map_counter_ = 0;
-  std::optional<std::int64_t> map_sent_utc_ns_;
+  Slower geodetic_;
+  Slower map_;
 };
 
 }  // namespace landfix::platform

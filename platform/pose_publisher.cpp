@@ -4,8 +4,7 @@ namespace landfix::platform {
 
 void PosePublisher::publish(PoseReport report, std::int64_t sent_utc_ns) noexcept {
   if (bus_ == nullptr) return;
-  report.map_hash = settings_.map_hash;
-  report.frames_version = kFramesVersion;
+  settings_.map.add_to(report);
   const PoseFrames encoded = encoder_.encode(report);
   const std::size_t dropped = encoded.count - bus_->send(encoded.all(), sent_utc_ns);
   counters_.frames_dropped += dropped;

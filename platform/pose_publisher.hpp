@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "platform/can_frame.hpp"
+#include "platform/map_reference.hpp"
 #include "platform/pose_frames.hpp"
 #include "platform/pose_report.hpp"
 #include "platform/relaxed_counter.hpp"
@@ -13,7 +14,7 @@ namespace landfix::platform {
 struct PublishSettings {
   std::uint32_t can_base_id = 0x3A0;
   bool can_fd = false;
-  std::uint16_t map_hash = 0;  ///< told on the bus
+  MapReference map{};  ///< told on the bus
 };
 
 struct PublishCounters {
@@ -26,7 +27,9 @@ class PosePublisher {
  public:
   /// `bus` must outlive it; without one nothing is published.
   PosePublisher(const PublishSettings& settings, FrameSink* bus) noexcept
-      : settings_(settings), encoder_(settings.can_base_id, settings.can_fd), bus_(bus) {}
+      : settings_(settings),
+        encoder_(settings.can_base_id, settings.can_fd, settings.map.projection.has_value()),
+        bus_(bus) {}
 
   /// `sent_utc_ns`: the time of sending, as a log says it.
   void publish(PoseReport report, std::int64_t sent_utc_ns) noexcept;

@@ -59,8 +59,7 @@ std::string cell(double value, int decimals) {
 }
 
 std::string_view state_name(const PoseReport& pose) {
-  using platform::pose_frame_table::kStates;
-  return pose.state < kStates.size() ? kStates[pose.state] : "UNKNOWN";
+  return ndt::to_string(static_cast<ndt::State>(pose.state));
 }
 
 }  // namespace
@@ -125,11 +124,19 @@ nlohmann::ordered_json to_json(const PoseReport& pose) {
   json["weak"] = pose.weak != 0;
   json["weak_axes"] = pose.weak_axes;
   json["map_hash"] = pose.map_hash;
+  json["map_origin"] = pose.map_origin;
   return json;
 }
 
+nlohmann::ordered_json to_json_geodetic(const PoseReport& place) {
+  return {{"latitude_deg", place.latitude_deg},
+          {"longitude_deg", place.longitude_deg},
+          {"utm_zone", place.utm_zone},
+          {"state", state_name(place)}};
+}
+
 nlohmann::ordered_json to_json(const CanFault& fault) {
-  return {{"time", static_cast<double>(fault.stamp_utc_ns) * 1e-9},
+  return {{"stamp_utc_ns", fault.stamp_utc_ns},
           {"frame", fault.frame},
           {"kind", to_string(fault.kind)},
           {"what", fault.what}};
@@ -147,6 +154,11 @@ std::string to_line(const PoseReport& pose) {
                      seconds(pose.stamp_utc_ns), cell(pose.x_m, 3), cell(pose.y_m, 3), cell(pose.z_m, 3),
                      deg(pose.roll_rad), deg(pose.pitch_rad), deg(pose.yaw_rad), cell(pose.speed_x_mps, 2),
                      cell(pose.sigma_along_m, 3), cell(pose.sigma_cross_m, 3), state_name(pose));
+}
+
+std::string to_line_geodetic(const PoseReport& place) {
+  return fmt::format("@ latitude {} deg, longitude {} deg  {}\n", cell(place.latitude_deg, 9),
+                     cell(place.longitude_deg, 9), state_name(place));
 }
 
 std::string to_line(const CanFault& fault) {

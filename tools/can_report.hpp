@@ -40,11 +40,14 @@ struct CanFault {
 [[nodiscard]] CanFault end_of_log_fault(std::size_t frames_missing, std::int64_t stamp_utc_ns);
 
 [[nodiscard]] nlohmann::ordered_json to_json(const platform::PoseReport& pose);
+/// Of DecodedFrame::geodetic.
+[[nodiscard]] nlohmann::ordered_json to_json_geodetic(const platform::PoseReport& place);
 [[nodiscard]] nlohmann::ordered_json to_json(const CanFault& fault);
 
 /// The title of the columns of `to_line`, as a comment.
 [[nodiscard]] std::string pose_title();
 [[nodiscard]] std::string to_line(const platform::PoseReport& pose);
+[[nodiscard]] std::string to_line_geodetic(const platform::PoseReport& place);
 [[nodiscard]] std::string to_line(const CanFault& fault);
 
 }  // namespace landfix::tools

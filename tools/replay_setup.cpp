@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "drivers/make_decoder.hpp"
+#include "platform/map_projector_info.hpp"
 #include "tools/command.hpp"
 #include "tools/input_files.hpp"
 #include "tools/sensor_setup.hpp"
@@ -65,6 +66,16 @@ namespace {
   return static_cast<std::uint16_t>(checksum ^ checksum >> 16);
 }
 
+/// What is told of the map on the bus.
+[[nodiscard]] platform::MapReference reference_of(const ReplaySetup& setup) {
+  const std::filesystem::path& projector = setup.configuration.map.projector;
+  platform::MapReference reference;
+  if (!projector.empty()) reference = platform::read_map_projector_info(projector);
+  reference.hash = hash_of(setup.map_checksum());
+  reference.origin = platform::map_origin_near(setup.settings.initial_pose.translation());
+  return reference;
+}
+
 /// The map, whole if its memory allows, else a window of it.
 void add_map(ReplaySetup& setup, const std::filesystem::path& path) {
   constexpr double kBytes_per_mib = 1 << 20;
@@ -91,7 +102,7 @@ ReplaySetup prepare_replay(const ReplayInput& input) {
   ReplaySetup setup{std::move(configuration), model, settings, decoder, {}, nullptr};
   const std::filesystem::path path = map_path(setup.configuration, input);
   add_map(setup, path);
-  setup.settings.publish.map_hash = hash_of(setup.map_checksum());
+  setup.settings.publish.map = reference_of(setup);
   const double resolution_m = setup.map().resolution_m();
   if (resolution_m != setup.configuration.matcher.resolution_m) {
     throw std::runtime_error(fmt::format(

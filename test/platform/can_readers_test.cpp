@@ -46,10 +46,12 @@ class CanReaders : public testing::TestWithParam<bool> {
   /// A log of 100 random poses.
   CanReaders() {
     std::mt19937_64 random(1);
-    PoseFrameEncoder encoder(0x3A0, fd_);
+    PoseFrameEncoder encoder(0x3A0, fd_, true);
     CandumpLog log(log_, "can0");
     for (int i = 0; i < 100; ++i) {
       PoseReport report = test::random_report(random, pose_layouts(fd_));
+      report.latitude_deg = std::uniform_real_distribution<double>(-90.0, 90.0)(random);
+      report.longitude_deg = std::uniform_real_distribution<double>(-179.0, 179.0)(random);
       report.map_hash = static_cast<std::uint16_t>(random());
       report.stamp_utc_ns = kStart_ns + i * kSweep_ns;
       const PoseFrames sent = encoder.encode(report);

