@@ -12,9 +12,9 @@
 namespace landfix::platform {
 
 struct PcapReceiverSettings {
-  std::filesystem::path file;
-  std::vector<std::uint16_t> ports;  ///< the others' packets are counted and left out; empty: all are kept
-  std::uint32_t sensor_address = 0;  ///< IPv4, host byte order; 0: whoever sends
+  std::filesystem::path file{};
+  std::vector<std::uint16_t> ports{};  ///< the others' packets are counted and left out; empty: all are kept
+  std::uint32_t sensor_address = 0;    ///< IPv4, host byte order; 0: whoever sends
   double speed = 1.0;      ///< recorded time over real time; 0: never waits but for room in the ring
   std::uint64_t laps = 1;  ///< how often the capture is run through
 };

@@ -12,7 +12,7 @@ namespace landfix::platform {
 
 /// Addresses are IPv4, in host byte order.
 struct UdpSettings {
-  std::vector<std::uint16_t> ports;     ///< the first is the data's; 0: any that is free
+  std::vector<std::uint16_t> ports{};   ///< the first is the data's; 0: any that is free
   std::uint32_t sensor_address = 0;     ///< 0: whoever sends
   std::uint32_t multicast_group = 0;    ///< 0: unicast and broadcast
   std::uint32_t interface_address = 0;  ///< of this computer; 0: any

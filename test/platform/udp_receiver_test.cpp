@@ -173,11 +173,13 @@ TEST(UdpReceiver, LosesNothingOfTheSensorInAFloodFromElsewhere) {
       ASSERT_TRUE(sensor.send(kHost, receiver.port(0), payload(1206, i)));
     }
   }
-  // WHEN only then it is read
-  receive_all(receiver, ring);
+  // WHEN only then it is read, a share of the flood a call
+  const auto read = [&] {
+    for (int i = 0; i < 50; ++i) static_cast<void>(receiver.receive(ring, 0));
+  };
+  read();
   ASSERT_TRUE(stranger.send(kHost, receiver.port(0), payload(8)));  // brings the count of those before
-  receive_all(receiver, ring);
-  receive_all(receiver, ring);
+  read();
   // THEN every packet of the sensor is there, and every other is counted
   EXPECT_EQ(receiver.counters().packets, kPackets);
   EXPECT_EQ(receiver.counters().dropped_by_kernel, 0U);
