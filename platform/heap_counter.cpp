@@ -10,5 +10,6 @@ constinit bool HeapCounter::available_ = false;
 void HeapCounter::arm() noexcept { thread_.armed = true; }
 void HeapCounter::disarm() noexcept { thread_.armed = false; }
 std::uint64_t HeapCounter::calls() noexcept { return thread_.calls; }
+std::uint64_t HeapCounter::locks() noexcept { return thread_.locks; }
 
 }  // namespace landfix::platform

@@ -1,6 +1,7 @@
-// Counts the calls of the heap that a thread makes while it asks for it: the proof that none are made after
-// start-up. It counts in executables that link landfix_heap_counter, which puts itself before the C library's
-// malloc, free and the rest (C++'s new and delete call these).
+// Counts the calls of the heap, and the mutexes that are locked, by a thread while it asks for it: the proof
+// that there are none after start-up. It counts in executables that link landfix_heap_counter, which puts
+// itself before the C library's malloc, free and the rest (C++'s new and delete call these), and before
+// pthread_mutex_lock (which std::mutex calls).
 #pragma once
 
 #include <cstdint>
@@ -18,10 +19,14 @@ class HeapCounter {
 
   /// While armed, since the thread began.
   [[nodiscard]] static std::uint64_t calls() noexcept;
+  [[nodiscard]] static std::uint64_t locks() noexcept;
 
   /// For landfix_heap_counter.
   static void count() noexcept {
     if (thread_.armed) ++thread_.calls;
+  }
+  static void count_lock() noexcept {
+    if (thread_.armed) ++thread_.locks;
   }
   static void make_available() noexcept { available_ = true; }
 
@@ -29,6 +34,7 @@ class HeapCounter {
   struct Thread {
     bool armed = false;
     std::uint64_t calls = 0;
+    std::uint64_t locks = 0;
   };
   static constinit thread_local Thread thread_;
   static constinit bool available_;

@@ -1,7 +1,10 @@
-// The library landfix_heap_counter: the functions of the heap, which count and hand on to those of glibc.
-// Not <cstdlib>: clang-tidy would hold its reserved parameter names against ours.
+// The library landfix_heap_counter: the functions of the heap, and the lock of a mutex, which count and hand
+// on to those of glibc. Not <cstdlib>: clang-tidy would hold its reserved parameter names against ours.
 #include <cerrno>
 #include <cstddef>
+
+#include <dlfcn.h>
+#include <pthread.h>
 
 #include "platform/heap_counter.hpp"
 
@@ -70,6 +73,17 @@ int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexc
   if (result == nullptr) return ENOMEM;
   *memory = result;
   return 0;
+}
+
+/// glibc's, which it exports under this name alone.
+static int (*const lock_of_glibc)(pthread_mutex_t*) =
+    reinterpret_cast<int (*)(pthread_mutex_t*)>(::dlsym(RTLD_NEXT, "pthread_mutex_lock"));
+
+int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
+  HeapCounter::count_lock();
+  if (lock_of_glibc != nullptr) return lock_of_glibc(mutex);
+  // Before main, while other static objects are made; there are no other threads yet.
+  return ::pthread_mutex_trylock(mutex);
 }
 
 }  // extern "C"

@@ -25,11 +25,16 @@ void take_counts(platform::RunningEngine& engine, const platform::ReceiveCounter
   result.results_dropped = status.counters.fixes_dropped;
   result.truncated = engine.ending() == platform::ReceiveStatus::truncated;
   std::uint64_t heap_calls = 0;
+  std::uint64_t locks = 0;
   for (const platform::EngineThread& thread : engine.threads()) {
     heap_calls += thread.watch->heap_calls();
+    locks += thread.watch->locks();
     result.page_faults += static_cast<std::int64_t>(thread.watch->page_faults());
   }
-  if (platform::HeapCounter::available()) result.heap_calls = heap_calls;
+  if (platform::HeapCounter::available()) {
+    result.heap_calls = heap_calls;
+    result.locks = locks;
+  }
 }
 
 }  // namespace

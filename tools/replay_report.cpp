@@ -52,6 +52,14 @@ struct StageTimes {
           {"max", to_ms(total.max_ns())}};
 }
 
+[[nodiscard]] std::string or_not_counted(const std::optional<std::uint64_t>& count) {
+  return count ? std::to_string(*count) : "not counted";
+}
+
+[[nodiscard]] nlohmann::ordered_json or_null(const std::optional<std::uint64_t>& count) {
+  return count ? nlohmann::ordered_json(*count) : nlohmann::ordered_json();
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const ReplayReport& report) {
@@ -88,8 +96,8 @@ nlohmann::ordered_json to_json(const ReplayReport& report) {
   object["deadline_misses"] = result.deadline_misses;
   object["latency_ms"] = latency_ms(result.duration(platform::Stage::total));
   object["stage_ms"] = stages;
-  object["heap_calls"] =
-      result.heap_calls ? nlohmann::ordered_json(*result.heap_calls) : nlohmann::ordered_json();
+  object["heap_calls"] = or_null(result.heap_calls);
+  object["locks"] = or_null(result.locks);
   object["page_faults"] = result.page_faults;
   object["rss_mib"] = peak_resident_mib();
   object["truncated"] = result.truncated;
@@ -143,9 +151,9 @@ std::string to_text(const ReplayReport& report) {
     text += fmt::format("  {:<12} {:8.3f} {:8.3f} {:8.3f}\n", stage.name, stage.p50_ms, stage.p99_ms,
                         stage.max_ms);
   }
-  text += fmt::format("heap calls   {}, page faults {}, resident memory {:.0f} MiB at most\n",
-                      result.heap_calls ? std::to_string(*result.heap_calls) : "not counted",
-                      result.page_faults, peak_resident_mib());
+  text += fmt::format("heap calls   {}, locks {}, page faults {}, resident memory {:.0f} MiB at most\n",
+                      or_not_counted(result.heap_calls), or_not_counted(result.locks), result.page_faults,
+                      peak_resident_mib());
   if (result.truncated) text += "the capture ends in the middle of a record: it has been cut short\n";
   if (report.evaluation) text += to_table(*report.evaluation);
   if (report.covariances) {

@@ -46,7 +46,10 @@ ReplayResult run_replay(platform::PacketSource& source, platform::Pipeline& pipe
   for (std::size_t i = 0; i < platform::kStageCount; ++i) {
     result.durations.push_back(pipeline.durations(static_cast<platform::Stage>(i)));
   }
-  if (platform::HeapCounter::available()) result.heap_calls = platform::HeapCounter::calls();
+  if (platform::HeapCounter::available()) {
+    result.heap_calls = platform::HeapCounter::calls();
+    result.locks = platform::HeapCounter::locks();
+  }
   return result;
 }
 

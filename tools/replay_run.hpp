@@ -31,6 +31,7 @@ struct ReplayResult {
 
   // In receiving, solving and publishing, not in keeping the results; nothing where it cannot be counted.
   std::optional<std::uint64_t> heap_calls;
+  std::optional<std::uint64_t> locks;
   std::int64_t page_faults = 0;
 
   /// The usable poses: PREDICTED, DEGRADED, TRACKING; with rising stamps.

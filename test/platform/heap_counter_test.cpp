@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <memory>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -45,6 +46,16 @@ class HeapCounterTest : public testing::Test {
     if (!HeapCounter::available()) GTEST_SKIP() << "the heap cannot be counted: a sanitizer, or not glibc";
   }
 };
+
+TEST_F(HeapCounterTest, FindsTheLockOfAMutex) {
+  std::mutex mutex;
+  const std::uint64_t before = HeapCounter::locks();
+  HeapCounter::arm();
+  { const std::scoped_lock lock(mutex); }
+  HeapCounter::disarm();
+  { const std::scoped_lock lock(mutex); }
+  EXPECT_EQ(HeapCounter::locks() - before, 1U);
+}
 
 TEST_F(HeapCounterTest, FindsEveryWayToTheHeap) {
   EXPECT_EQ(calls_of([] { escaped = std::malloc(10); }), 1U);

@@ -1,0 +1,207 @@
+// The vehicle's threads on a simulated drive around a block: what they give is what one thread gives, and on
+// the way of a pose nothing allocates, locks or faults a page.
+#include "tools/engine_replay.hpp"
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+
+#include "platform/candump_log.hpp"
+#include "platform/heap_counter.hpp"
+#include "platform/pcap_receiver.hpp"
+#include "platform/trajectory.hpp"
+#include "support/run_landfix.hpp"
+#include "support/test_data.hpp"
+#include "tools/engine_setup.hpp"
+#include "tools/replay_run.hpp"
+#include "tools/replay_setup.hpp"
+
+namespace landfix::tools {
+namespace {
+
+constexpr const char* kRoute = R"(seed = 5
+heading_deg = 0.0
+[road]
+lanes = 2
+lane_width_m = 3.0
+parking_width_m = 0.0
+pavement_width_m = 2.0
+[scenery]
+buildings_per_100m = 6.0
+building_setback_m = 4.0
+building_height_m = 10.0
+trees_per_100m = 8.0
+poles_per_100m = 6.0
+signs_per_100m = 2.0
+boundaries_per_100m = 2.0
+side_streets_per_100m = 0.0
+parked_cars_per_100m = 0.0
+moving_cars_per_100m = 0.0
+)";
+
+[[nodiscard]] std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// Once around a small block, 140 m, simulated once for all tests.
+class EngineReplay : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    directory_ = std::make_unique<test::TemporaryDirectory>();
+    std::ofstream route(path("block.toml"));
+    route << kRoute;
+    for (const double straight_m : {5.0, 10.0, 10.0, 10.0}) {
+      route << "[[segment]]\nlength_m = " << straight_m << "\ngrade = 0.0\nspeed_kmh = 25.0\n"
+            << "[[segment]]\nlength_m = 25.0\nturn_deg = 90.0\ngrade = 0.0\nspeed_kmh = 20.0\n";
+    }
+    route << "[[segment]]\nlength_m = 5.0\ngrade = 0.0\nspeed_kmh = 25.0\n";
+    route.close();
+    const test::Outcome simulated = test::run_landfix(
+        {"simulate", "--route", path("block.toml"), "--sensor", "vlp16", "--output", path("")});
+    ASSERT_EQ(simulated.code, 0) << simulated.error;
+    const test::Outcome mapped = test::run_landfix(
+        {"map", "--pcd", path("map.pcd"), "--resolution", "1", "--output", path("map.ndt")});
+    ASSERT_EQ(mapped.code, 0) << mapped.error;
+    setup_ = std::make_unique<ReplaySetup>(prepare_replay({.config = path("config.toml")}));
+  }
+  static void TearDownTestSuite() {
+    setup_.reset();
+    directory_.reset();
+  }
+
+  [[nodiscard]] static std::string path(const std::string& name) {
+    return (directory_->path() / name).string();
+  }
+  [[nodiscard]] static const ReplaySetup& setup() { return *setup_; }
+
+  /// In threads.
+  [[nodiscard]] static ReplayResult run(platform::EngineMode mode, double speed, std::uint64_t laps,
+                                        platform::FrameSink* bus) {
+    platform::PcapReceiver receiver(pcap_settings(setup(), path("capture.pcap"), speed, laps));
+    platform::RunningEngine engine(platform::Engine(engine_settings(setup(), mode), setup().decoder,
+                                                    setup().map(), nullptr, receiver, bus));
+    is_locked_ = engine.missing().empty();
+    return run_engine(engine, receiver.counters(), true, [](const platform::SolvedSweep&) {});
+  }
+  [[nodiscard]] static bool is_locked() { return is_locked_; }
+
+ private:
+  static inline std::unique_ptr<test::TemporaryDirectory> directory_;
+  static inline std::unique_ptr<ReplaySetup> setup_;
+  static inline bool is_locked_ = false;
+};
+
+/// The log and the trajectory of a replay.
+struct Written {
+  std::string log;
+  std::string trajectory;
+  bool operator==(const Written&) const = default;
+};
+
+template <class Replay>
+[[nodiscard]] Written written_by(const std::string& file, Replay replay) {
+  platform::CandumpLog bus(file, "can0");
+  const ReplayResult result = replay(bus);
+  bus.commit();
+  return {text_of(file), platform::format_tum(result.trajectory())};
+}
+
+TEST_F(EngineReplay, GivesWhatOneThreadGives) {
+  const Written plain = written_by(path("plain.log"), [](platform::FrameSink& bus) {
+    platform::PcapSource source(path("capture.pcap"));
+    platform::Pipeline pipeline(setup().settings, setup().decoder, setup().map(), &bus);
+    return run_replay(source, pipeline, [](const platform::SweepResult&) {});
+  });
+  ASSERT_GT(plain.log.size(), 10'000U);
+  EXPECT_EQ(written_by(path("fast.log"),
+                       [](platform::FrameSink& bus) {
+                         return run(platform::EngineMode::fast_replay, 0.0, 1, &bus);
+                       }),
+            plain);
+  bool is_too_slow = false;
+  const Written paced = written_by(path("paced.log"), [&is_too_slow](platform::FrameSink& bus) {
+    ReplayResult result = run(platform::EngineMode::paced_replay, 2.0, 1, &bus);
+    is_too_slow = result.packets_dropped + result.sweeps_skipped + result.deadline_misses != 0;
+    EXPECT_GT(result.duration(platform::Stage::total).count(), 100U);
+    return result;
+  });
+  if (is_too_slow) GTEST_SKIP() << "this computer is too slow, or too busy, for a replay at a pace";
+  EXPECT_EQ(paced, plain);
+}
+
+TEST_F(EngineReplay, GoesRoundLapAfterLapInFixedMemoryWithoutALock) {
+  const ReplayResult once = run(platform::EngineMode::fast_replay, 0.0, 1, nullptr);
+  const ReplayResult result = run(platform::EngineMode::fast_replay, 0.0, 4, nullptr);
+  EXPECT_GT(result.tally.came(), 4 * once.tally.came() - 8);
+  EXPECT_EQ(result.tally.count(ndt::State::lost), 0U);
+  EXPECT_LE(result.tally.came() - result.tally.count(ndt::State::tracking), 8U) << "at the seams alone";
+  EXPECT_EQ(result.packets_dropped + result.sweeps_skipped + result.deadline_misses + result.results_dropped,
+            0U);
+  if (!platform::HeapCounter::available()) GTEST_SKIP() << "a sanitizer owns the heap";
+  EXPECT_EQ(result.heap_calls, 0U);
+  EXPECT_EQ(result.locks, 0U);
+  if (!is_locked()) GTEST_SKIP() << "page faults are not counted: no right to lock memory";
+  EXPECT_EQ(result.page_faults, 0);
+}
+
+/// A bus whose driver does what must not be done.
+template <class Deed>
+class SinfulBus final : public platform::FrameSink {
+ public:
+  [[nodiscard]] std::size_t send(std::span<const platform::CanFrame> group, std::int64_t) noexcept override {
+    deed();
+    return group.size();
+  }
+  Deed deed;
+};
+
+struct Allocates {
+  void operator()() const { memory = std::make_unique<int>(1); }
+  mutable std::unique_ptr<int> memory;
+};
+struct Locks {
+  void operator()() const { const std::scoped_lock lock(mutex); }
+  mutable std::mutex mutex;
+};
+struct Faults {
+  void operator()() const {
+    constexpr std::size_t kPage = 4096;
+    void* const fresh = ::mmap(nullptr, kPage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    std::memset(fresh, 1, kPage);
+    ::munmap(fresh, kPage);
+  }
+};
+
+TEST_F(EngineReplay, SeesEachViolation) {
+  if (!platform::HeapCounter::available()) GTEST_SKIP() << "a sanitizer owns the heap";
+  SinfulBus<Allocates> allocating;
+  EXPECT_GT(run(platform::EngineMode::fast_replay, 0.0, 1, &allocating).heap_calls, 100U);
+  SinfulBus<Locks> locking;
+  EXPECT_GT(run(platform::EngineMode::fast_replay, 0.0, 1, &locking).locks, 100U);
+  SinfulBus<Faults> faulting;
+  EXPECT_GT(run(platform::EngineMode::fast_replay, 0.0, 1, &faulting).page_faults, 100);
+}
+
+TEST_F(EngineReplay, DropsAndSkipsWhatIsTooMuchAndSaysNothingFalse) {
+  const ReplayResult result = run(platform::EngineMode::paced_replay, 2000.0, 3, nullptr);
+  EXPECT_GT(result.packets_dropped + result.sweeps_skipped, 0U);
+  EXPECT_GT(result.tally.came(), 0U);
+  const auto truth = platform::read_tum(path("truth.tum"));
+  for (const platform::SweepResult& sweep : result.sweeps) {
+    const auto there = platform::interpolate(truth, sweep.fix.at.stamp_utc_ns);
+    if (!there || sweep.fix.state != ndt::State::tracking) continue;
+    EXPECT_LT((sweep.fix.at.pose.translation() - there->translation()).norm(), 0.3);
+  }
+}
+
+}  // namespace
+}  // namespace landfix::tools
