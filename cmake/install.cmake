@@ -20,10 +20,11 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
 set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_LIST_DIR}/debian/move_configuration.cmake")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "real-time LiDAR localization for vehicles
- landfixd tells a vehicle where it is, from its LiDAR alone: packets come in over Ethernet, poses go out
- on the CAN bus. landfix makes its maps, replays captures and checks the host. The method is the Normal
- Distributions Transform (NDT).")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
+"landfixd tells a vehicle where it is, from its LiDAR alone: packets come in
+over Ethernet, poses go out on the CAN bus. landfix makes its maps, replays
+captures and checks the host. The method is the Normal Distributions
+Transform (NDT).")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "systemd")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "can-utils, chrony | linuxptp")

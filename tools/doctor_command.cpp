@@ -44,6 +44,7 @@ std::vector<HostCheck> check_all(const DoctorOptions& options) {
   platform::Configuration configuration;
   if (!options.config.empty()) configuration = platform::read_configuration(options.config);
   std::vector<HostCheck> checks = check_host(options.root, needs_of(options, configuration));
+  if (!options.config.empty()) checks.push_back(check_discipline(configuration.can.interface));
   checks.push_back(check_clock());
   for (HostCheck& check : check_rights(configuration.realtime)) checks.push_back(std::move(check));
   return checks;

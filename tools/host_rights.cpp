@@ -1,5 +1,6 @@
 #include "tools/host_rights.hpp"
 
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include <sys/timex.h>
 
 #include "platform/realtime_thread.hpp"
+#include "tools/queueing_discipline.hpp"
 
 namespace landfix::tools {
 namespace {
@@ -53,6 +55,16 @@ std::vector<HostCheck> check_rights(const platform::RealtimeSettings& realtime) 
                                 check_thread("tx", realtime.tx)};
   if (realtime.lock_memory) checks.push_back(check_locking());
   return checks;
+}
+
+HostCheck check_discipline(const std::string& can_interface) {
+  const std::optional<std::string> found = queueing_discipline(can_interface);
+  if (!found) return {"CAN queue's order", Verdict::unknown, fmt::format("no {} here", can_interface)};
+  // These reorder flows or drop what has waited: for the Internet, not for a bus.
+  const bool sorts = found->starts_with("fq") || *found == "sfq" || *found == "cake" || *found == "red";
+  if (!sorts) return {"CAN queue's order", Verdict::pass, *found};
+  return {"CAN queue's order", Verdict::warn, *found,
+          fmt::format("tc qdisc replace dev {} root pfifo_fast", can_interface)};
 }
 
 HostCheck check_clock() {

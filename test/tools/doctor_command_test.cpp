@@ -1,5 +1,6 @@
 #include <fstream>
 #include <map>
+#include <optional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 #include "support/test_data.hpp"
 #include "tools/host_checks.hpp"
 #include "tools/host_files.hpp"
+#include "tools/queueing_discipline.hpp"
 
 namespace landfix::tools {
 namespace {
@@ -140,6 +142,13 @@ TEST(HostFiles, ListsOfCores) {
   EXPECT_THAT(parse_cores(""), IsEmpty());
   EXPECT_THAT(parse_cores("x,3-,-,7,9-8"), ElementsAre(7));
   EXPECT_LT(parse_cores("0-2147483647").size(), 5000U);
+}
+
+TEST(QueueingDiscipline, OfTheLoopback) {
+  const std::optional<std::string> found = queueing_discipline("lo");
+  if (!found) GTEST_SKIP() << "no loopback, or no netlink here";
+  EXPECT_THAT(*found, testing::MatchesRegex("[a-z_]+"));
+  EXPECT_FALSE(queueing_discipline("nosuch0"));
 }
 
 TEST(DoctorCommand, RunsOnThisHostWhateverItIs) {
