@@ -22,7 +22,8 @@ enum class TimeSource : std::uint8_t {
   return source == TimeSource::sensor ? "sensor" : "receive";
 }
 
-/// Points in the order of the packets. Never grows: a point that does not fit is counted.
+/// Points in the order of the packets. Never grows: a point that does not fit is counted. Whoever uses points
+/// as they come may forget them, and then needs room for a packet's alone.
 class Sweep {
  public:
   Sweep() = default;
@@ -32,6 +33,7 @@ class Sweep {
   /// where the azimuth passed the cut, not in the middle of a turn.
   void begin(std::int64_t start_utc_ns, bool at_cut, TimeSource time_source) noexcept {
     size_ = 0;
+    is_empty_ = true;
     overflowed_ = 0;
     last_time_s_ = 0.0F;
     start_utc_ns_ = start_utc_ns;
@@ -47,6 +49,7 @@ class Sweep {
       return;
     }
     storage_[size_++] = point;
+    is_empty_ = false;
     last_time_s_ = std::max(last_time_s_, point.time_s);
   }
 
@@ -56,14 +59,20 @@ class Sweep {
   [[nodiscard]] std::span<Point> unused() noexcept { return storage_.subspan(size_); }
   void take(std::size_t count, float latest_time_s) noexcept {
     size_ += count;
-    if (count != 0) last_time_s_ = std::max(last_time_s_, latest_time_s);
+    if (count == 0) return;
+    is_empty_ = false;
+    last_time_s_ = std::max(last_time_s_, latest_time_s);
   }
+
+  /// Those that are here have been used: their room is free again. What is known of the sweep as a whole
+  /// stays.
+  void forget_points() noexcept { size_ = 0; }
 
   /// A firing has come that was earlier than the first: the sweep begins by so much earlier.
   void begin_earlier(std::int64_t by_ns) noexcept {
     const auto by_s = static_cast<float>(static_cast<double>(by_ns) * 1e-9);
     for (Point& point : storage_.first(size_)) point.time_s += by_s;
-    if (size_ != 0) last_time_s_ += by_s;
+    if (!is_empty_) last_time_s_ += by_s;
     start_utc_ns_ -= by_ns;
   }
 
@@ -73,7 +82,10 @@ class Sweep {
   void lose_packets(std::uint32_t count) noexcept { lost_packets_ += count; }
   void recover_packet() noexcept { lost_packets_ -= lost_packets_ > 0 ? 1 : 0; }
 
+  /// Those not forgotten.
   [[nodiscard]] std::span<const Point> points() const noexcept { return storage_.first(size_); }
+  /// No point has come, forgotten or not.
+  [[nodiscard]] bool empty() const noexcept { return is_empty_; }
   [[nodiscard]] std::int64_t start_utc_ns() const noexcept { return start_utc_ns_; }
   /// Time of the last point: the time that the sweep's pose holds for.
   [[nodiscard]] std::int64_t end_utc_ns() const noexcept {
@@ -90,6 +102,7 @@ class Sweep {
  private:
   std::span<Point> storage_;
   std::size_t size_ = 0;
+  bool is_empty_ = true;
   std::size_t overflowed_ = 0;
   std::int64_t start_utc_ns_ = 0;
   float last_time_s_ = 0.0F;

@@ -131,7 +131,7 @@ void SweepBuilder::close(SweepPair& sweeps) noexcept {
 }
 
 bool SweepBuilder::flush(SweepPair& sweeps) noexcept {
-  if (!open_ || sweeps.current().points().empty()) return false;
+  if (!open_ || sweeps.current().empty()) return false;
   has_cut_ = false;
   end_turn(sweeps);
   return true;

@@ -63,6 +63,11 @@ class Matcher {
                                   const Pose& guess, std::optional<double> guess_sigma_m = std::nullopt,
                                   const Deadline& deadline = {}) noexcept;
 
+  /// Allocated, and all of it used in the worst case.
+  [[nodiscard]] std::size_t memory_bytes() const noexcept {
+    return coarse_groups_.memory_bytes() + leading_groups_.memory_bytes() + groups_.memory_bytes();
+  }
+
   static constexpr std::size_t kMaxPoints = 1 << 15;
 
  private:

@@ -83,6 +83,11 @@ class PairGroups {
   /// Candidates that did not fit their group since the points were assigned.
   [[nodiscard]] std::size_t dropped_pairs() const noexcept { return dropped_pairs_; }
 
+  [[nodiscard]] std::size_t memory_bytes() const noexcept {
+    return points_m_.size() * sizeof(points_m_[0]) + groups_.size() * sizeof(PairGroup) +
+           columns_.size() * sizeof(PairColumns);
+  }
+
  private:
   void look_up(const VoxelMap& map, const Pose& pose, std::size_t index) noexcept;
   void fill_covariances(const VoxelMap& map, std::size_t index) noexcept;

@@ -67,8 +67,9 @@ std::vector<MemoryBudget> memory_of(const Configuration& configuration, const dr
   return {
       {"map", map, map < map_bytes ? "two windows of it" : "all of it"},
       {"packet ring", packet_ring_slots(model) * largest_packet_bytes(model), "slots x largest packet"},
-      {"sweeps", 2 * model.max_points_per_sweep() * sizeof(drivers::Point), "two, of 1.5 turns each"},
+      {"points", 2 * Pipeline::kMaxPointsPerPacket * sizeof(drivers::Point), "of a packet, for two sweeps"},
       {"filter", filter_bytes(ndt::Matcher::kMaxPoints), "computed; \"entropy\" takes more"},
+      {"matcher", ndt::Matcher({}).memory_bytes(), "of as many points as the filter gives"},
       {"histograms", kStageCount * sizeof(LatencyHistogram), "one a stage"},
       {"stacks", kRealtimeThreads * kRealtimeStack_bytes, "of the real-time threads"},
   };

@@ -30,6 +30,7 @@ std::optional<SweepResult> Pipeline::process(const UdpPacket& packet, const Swee
   }
   // Those of the next sweep that the packet holds come after the match, so that its velocity serves them.
   filter_new_points(sweeps_.current());
+  sweeps_.current().forget_points();
   return result;
 }
 
@@ -57,24 +58,22 @@ std::optional<SweepResult> Pipeline::predict_missing(std::int64_t now_utc_ns) no
 void Pipeline::drop_begun_sweep() noexcept {
   if (!decoder_.flush(sweeps_)) return;
   filter_.clear();
-  filtered_ = 0;
+  is_filtering_ = false;
   filter_ns_ = 0;
   decode_ns_ = 0;
 }
 
 void Pipeline::filter_new_points(const drivers::Sweep& sweep) noexcept {
   const std::int64_t began_ns = monotonic_ns();
-  const auto new_points = sweep.points().subspan(filtered_);
-  if (new_points.empty()) return;
-  if (filtered_ == 0) {
+  if (sweep.points().empty()) return;
+  if (!std::exchange(is_filtering_, true)) {
     // The velocity of the sweep before, as its match has just run.
     const ndt::Velocity velocity = settings_.deskew ? localizer_.velocity() : ndt::Velocity::Zero();
     deskew_.begin(sweep.start_utc_ns(), velocity, settings_.sensor_pose);
   }
   const auto late_s =
       static_cast<float>(static_cast<double>(sweep.start_utc_ns() - deskew_.start_utc_ns()) * 1e-9);
-  for (const drivers::Point& point : new_points) filter_.add(deskew_.to_start(point, late_s), point.ring);
-  filtered_ = sweep.points().size();
+  for (const drivers::Point& point : sweep.points()) filter_.add(deskew_.to_start(point, late_s), point.ring);
   filter_ns_ += monotonic_ns() - began_ns;
 }
 
@@ -85,7 +84,7 @@ std::span<const Eigen::Vector3f> Pipeline::finish_filter(std::int64_t end_utc_ns
   for (Eigen::Vector3f& point_m : points_m) point_m = to_end * point_m;
   counters_.points_unfiltered += filter_.dropped_points();
   filter_.clear();
-  filtered_ = 0;
+  is_filtering_ = false;
   record(Stage::filter, filter_ns_ + monotonic_ns() - began_ns);
   filter_ns_ = 0;
   return points_m;

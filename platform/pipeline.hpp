@@ -33,7 +33,6 @@ struct PipelineSettings {
   std::uint16_t port = 0;                         ///< of the sensor's data packets; others are counted
   std::uint16_t telemetry_port = 0;               ///< of its other packets; 0: none
   std::uint32_t sensor_address = 0;               ///< IPv4, host byte order; 0: whoever sends
-  std::size_t points_per_sweep = 0;               ///< room for a sweep
   std::int64_t longest_period_ns = 200'000'000;   ///< of a sweep, at the sensor's slowest speed
   ndt::Pose sensor_pose = ndt::Pose::Identity();  ///< vehicle <- sensor
   ndt::FilterSettings filter;
@@ -65,6 +64,10 @@ struct PipelineCounters {
 /// Allocates in its constructor and never after.
 class Pipeline {
  public:
+  /// A sweep's points are filtered as they come and forgotten: it never holds more than a packet's (OS1-128:
+  /// 2048).
+  static constexpr std::size_t kMaxPointsPerPacket = 1 << 14;
+
   /// The memory that `map` views, `bus` and `window` must outlive it; without a bus nothing is published,
   /// with a window each sweep takes its newest map.
   Pipeline(const PipelineSettings& settings, const drivers::AnyDecoder& decoder, const ndt::VoxelMap& map,
@@ -110,7 +113,7 @@ class Pipeline {
   drivers::SweepPair sweeps_;
   ndt::Deskew deskew_;
   ndt::ScanFilter filter_;
-  std::size_t filtered_ = 0;  ///< points of the current sweep, its first, that the filter has
+  bool is_filtering_ = false;  ///< the filter has points of the current sweep
   ndt::Localizer localizer_;
   SweepSchedule schedule_;
   std::int64_t seen_utc_ns_ = 0;

@@ -8,7 +8,7 @@ Pipeline::Pipeline(const PipelineSettings& settings, const drivers::AnyDecoder& 
                    const ndt::VoxelMap& map, FrameSink* bus, MapWindow* window)
     : settings_(settings),
       decoder_(decoder),
-      points_(2 * settings.points_per_sweep),
+      points_(2 * kMaxPointsPerPacket),
       sweeps_(points_),
       filter_(settings.filter, settings.filter_capacity),
       localizer_(map, settings.localizer, settings.initial_pose),

@@ -43,7 +43,6 @@ namespace {
       .port = configuration.sensor.port != 0 ? configuration.sensor.port : model.data_port,
       .telemetry_port = model.telemetry_port,
       .sensor_address = ipv4_of(configuration.sensor.address),
-      .points_per_sweep = model.max_points_per_sweep(),
       .longest_period_ns = 1'000'000'000 / model.rotation_hz[0],
       .sensor_pose = configuration.vehicle.sensor_pose,
       .filter = configuration.filter,

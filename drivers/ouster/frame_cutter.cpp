@@ -167,7 +167,7 @@ void FrameCutter::close(SweepPair& sweeps) noexcept {
 }
 
 bool FrameCutter::flush(SweepPair& sweeps) noexcept {
-  if (!open_ || sweeps.current().points().empty()) return false;
+  if (!open_ || sweeps.current().empty()) return false;
   // Of the rest nothing is known yet.
   const std::uint32_t gaps =
       expected_.missing_in(received_, joined_at_) - expected_.missing_in(received_, newest_number_);
