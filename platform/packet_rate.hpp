@@ -18,6 +18,8 @@ inline constexpr double kPacketRing_s = 0.25;
   // A column with all its returns.
   constexpr double kColumnsOfOuster = 16.0;
   if (model.format == drivers::PacketFormat::ouster) return firings_per_s / kColumnsOfOuster;
+  // Of both returns one firing a packet, which leaves four blocks empty.
+  if (model.format == drivers::PacketFormat::velodyne_vls128 && model.max_returns == 2) return firings_per_s;
   // 12 blocks of 32 returns or as many in another order, of Pandar40P 10 blocks of 40.
   const double returns_of_packet = model.beam_count == 40 ? 400.0 : 384.0;
   return firings_per_s * static_cast<double>(model.beam_count) * model.max_returns / returns_of_packet;

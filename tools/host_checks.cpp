@@ -187,7 +187,7 @@ HostCheck check_interrupts(const Host& host) {
     const auto list = read_host_file(host.root / "proc/irq" / irq.filename() / "smp_affinity_list");
     for (const int core : parse_cores(list.value_or(""))) cores.push_back(core);
   }
-  if (cores.empty()) return unknown("interrupts", name);
+  if (cores.empty()) return {"interrupts", Verdict::unknown, fmt::format("none of {} to be seen", name)};
   std::sort(cores.begin(), cores.end());
   cores.erase(std::unique(cores.begin(), cores.end()), cores.end());
   const bool apart = std::none_of(cores.begin(), cores.end(), [&host](int core) {
