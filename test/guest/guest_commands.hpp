@@ -30,15 +30,24 @@ class Background {
   Background(const Background&) = delete;
   Background& operator=(const Background&) = delete;
 
+  /// Whether it has ended by itself.
+  [[nodiscard]] bool has_ended() {
+    if (process_ > 0 && ::waitpid(process_, &status_, WNOHANG) == process_) process_ = -1;
+    return process_ <= 0;
+  }
+  /// As of a shell; -1 where a signal ended it.
+  [[nodiscard]] int exit_code() const { return WIFEXITED(status_) ? WEXITSTATUS(status_) : -1; }
+
   void stop() {
     if (process_ <= 0) return;
     ::kill(process_, SIGINT);
-    ::waitpid(process_, nullptr, 0);
+    ::waitpid(process_, &status_, 0);
     process_ = -1;
   }
 
  private:
   pid_t process_;
+  int status_ = 0;
 };
 
 }  // namespace landfix::test
