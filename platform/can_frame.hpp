@@ -26,6 +26,11 @@ struct CanFrame {
   [[nodiscard]] bool operator==(const CanFrame&) const = default;
 };
 
+struct StampedFrame {
+  std::int64_t stamp_utc_ns = 0;  ///< when it was received
+  CanFrame frame{};
+};
+
 /// Whether a frame can have this many bytes (ISO 11898-1: beyond 8 the length code takes steps).
 [[nodiscard]] constexpr bool is_can_length(std::size_t bytes, bool fd) noexcept {
   if (bytes <= kMaxClassicBytes) return true;

@@ -13,6 +13,7 @@
 #include "drivers/sensor_model.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/candump_log.hpp"
+#include "platform/odometry_configuration.hpp"
 #include "platform/pose_frame_table.hpp"
 #include "platform/toml_section.hpp"
 
@@ -21,8 +22,8 @@ namespace {
 
 constexpr std::size_t kMaxUnixPathLength = 107;
 
-constexpr std::array kSections{"sensor", "vehicle", "map", "initial_pose",
-                               "filter", "matcher", "can", "metrics"};
+constexpr std::array kSections{"sensor",  "vehicle", "map",     "initial_pose", "filter",
+                               "matcher", "can",     "metrics", "odometry"};
 
 bool is_ipv4(std::string_view text) {
   in_addr address{};
@@ -151,6 +152,7 @@ Configuration parse_configuration(std::string_view text, const std::filesystem::
   read_matcher({path, root, "matcher"}, configuration.matcher);
   read_can({path, root, "can"}, configuration.can);
   read_metrics({path, root, "metrics"}, configuration.metrics);
+  read_odometry({path, root, "odometry"}, configuration.odometry);
   return configuration;
 }
 

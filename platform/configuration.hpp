@@ -10,6 +10,7 @@
 
 #include "ndt/pose.hpp"
 #include "ndt/scan_filter.hpp"
+#include "platform/odometry.hpp"
 
 namespace landfix::platform {
 
@@ -61,6 +62,7 @@ struct Configuration {
   MatcherSettings matcher{};
   CanSettings can{};
   MetricsSettings metrics{};
+  OdometrySettings odometry{};
 };
 
 /// Paths within the file are relative to its folder. Throws std::runtime_error: path:line:column, what is

@@ -21,6 +21,7 @@
 #include "platform/can_frame.hpp"
 #include "platform/latency_histogram.hpp"
 #include "platform/map_window.hpp"
+#include "platform/odometry.hpp"
 #include "platform/packet_source.hpp"
 #include "platform/pose_frames.hpp"
 #include "platform/sweep_schedule.hpp"
@@ -47,6 +48,7 @@ struct PipelineSettings {
   std::uint32_t can_base_id = 0x3A0;
   bool can_fd = false;
   std::uint16_t map_hash = 0;  ///< told on the bus
+  OdometrySettings odometry{};
 };
 
 /// What came of one sweep, or of one that did not come.
@@ -88,6 +90,10 @@ class Pipeline {
   /// sweep is missing half a period after it was due. For a second they are PREDICTED, then NO_DATA twice a
   /// second; what is left of a sweep that was begun is then dropped. Nothing before the first sweep.
   [[nodiscard]] std::optional<SweepResult> predict_missing(std::int64_t now_utc_ns) noexcept;
+  /// Takes a frame of the vehicle's bus, by its time of receipt; to be told before a packet that came later.
+  void add_odometry(const CanFrame& frame, std::int64_t receive_utc_ns) noexcept {
+    odometry_.add(frame, receive_utc_ns);
+  }
   /// At the end of the packets: what came of the last sweep, if any is begun.
   [[nodiscard]] std::optional<SweepResult> finish() noexcept;
 
@@ -95,6 +101,7 @@ class Pipeline {
   [[nodiscard]] const drivers::StreamCounters& stream_counters() const noexcept {
     return decoder_.counters();
   }
+  [[nodiscard]] const Odometry& odometry() const noexcept { return odometry_; }
   [[nodiscard]] const LatencyHistogram& durations(Stage stage) const noexcept {
     return durations_[static_cast<std::size_t>(stage)];
   }
@@ -102,6 +109,9 @@ class Pipeline {
  private:
   [[nodiscard]] SweepResult localize(const drivers::Sweep& sweep) noexcept;
   void drop_begun_sweep() noexcept;
+  [[nodiscard]] std::optional<ndt::MeasuredMotion> motion_to(std::int64_t stamp_utc_ns) const noexcept;
+  [[nodiscard]] ndt::Velocity velocity_at(std::int64_t stamp_utc_ns) const noexcept;
+  void check_odometry(const ndt::Fix& fix) noexcept;
   void filter_new_points(const drivers::Sweep& sweep) noexcept;
   [[nodiscard]] std::span<const Eigen::Vector3f> finish_filter(std::int64_t end_utc_ns) noexcept;
   void publish(const SweepResult& result) noexcept;
@@ -116,6 +126,8 @@ class Pipeline {
   std::size_t filtered_ = 0;  ///< points of the current sweep, its first, that the filter has
   ndt::Localizer localizer_;
   SweepSchedule schedule_;
+  Odometry odometry_;
+  std::optional<ndt::StampedPose> last_tracked_;  ///< of the last sweep, if it was TRACKING
   std::int64_t seen_utc_ns_ = 0;
   drivers::TimeSource time_source_ = drivers::TimeSource::receive;  ///< of the last sweep
   PoseFrameEncoder encoder_;

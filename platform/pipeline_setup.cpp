@@ -11,8 +11,8 @@ Pipeline::Pipeline(const PipelineSettings& settings, const drivers::AnyDecoder& 
       sweeps_(points_),
       filter_(settings.filter, settings.filter_capacity),
       localizer_(map, settings.localizer, settings.initial_pose),
-      schedule_(settings.longest_period_ns,
-                static_cast<std::int64_t>(settings.localizer.lost_after_s * 1e9)),
+      schedule_(settings.longest_period_ns, static_cast<std::int64_t>(settings.localizer.lost_after_s * 1e9)),
+      odometry_(settings.odometry),
       encoder_(settings.can_base_id, settings.can_fd),
       bus_(bus),
       window_(window) {}

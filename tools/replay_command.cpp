@@ -31,6 +31,7 @@ struct Arguments {
   std::string pcap;
   std::string trajectory;
   std::string candump;
+  std::string odometry;
   std::string truth;
   std::string svg;
   bool json = false;
@@ -64,6 +65,16 @@ void warn_of_window(const platform::MapWindowCounters& counters) {
   }
 }
 
+[[nodiscard]] std::vector<platform::StampedFrame> read_odometry(const Arguments& arguments,
+                                                                const ReplaySetup& setup) {
+  if (arguments.odometry.empty()) return {};
+  if (setup.settings.odometry.count == 0) {
+    throw UsageError(fmt::format("--odometry: [[odometry.signal]] in {} must say what the frames mean",
+                                 arguments.input.config.string()));
+  }
+  return platform::read_candump(arguments.odometry);
+}
+
 void replay(const Arguments& arguments) {
   const ReplaySetup setup = prepare_replay(arguments.input);
   const ndt::VoxelMap map = setup.map();
@@ -74,13 +85,17 @@ void replay(const Arguments& arguments) {
   const std::filesystem::path capture = arguments.pcap.empty()
                                             ? arguments.input.config.parent_path() / "capture.pcap"
                                             : std::filesystem::path(arguments.pcap);
+  const std::vector<platform::StampedFrame> odometry = read_odometry(arguments, setup);
   platform::PcapSource source(capture);
   platform::Pipeline pipeline(setup.settings, setup.decoder, map, bus ? &*bus : nullptr, setup.window.get());
 
-  const ReplayResult result = run_replay(source, pipeline, [&](const platform::SweepResult& sweep) {
-    if (setup.window) (void)setup.window->load();  // here, so that two replays are the same
-    show_progress(fmt::format("{:3.0f} %  {}", source.percent_read(), ndt::to_string(sweep.fix.state)));
-  });
+  const ReplayResult result = run_replay(
+      source, pipeline,
+      [&](const platform::SweepResult& sweep) {
+        if (setup.window) (void)setup.window->load();  // here, so that two replays are the same
+        show_progress(fmt::format("{:3.0f} %  {}", source.percent_read(), ndt::to_string(sweep.fix.state)));
+      },
+      odometry);
   show_progress("");
   warn_of_losses(capture.string(), source.counters());
   if (setup.window) warn_of_window(setup.window->counters());
@@ -123,6 +138,8 @@ void add_replay_command(CLI::App& app) {
                   "pose at the first sweep, map <- vehicle [m, deg], in place of the configuration's");
   add_file("--trajectory", arguments->trajectory, "OUT.tum", "write the poses");
   add_file("--candump", arguments->candump, "OUT.log", "write the CAN frames, as candump -l does");
+  add_file("--odometry", arguments->odometry, "CAN.log",
+           "frames of the vehicle's bus, as candump -l writes them: what [odometry] tells how to read");
   add_file("--truth", arguments->truth, "TRUTH.tum", "true trajectory: report the errors against it");
   add_file("--svg", arguments->svg, "OUT.svg", "draw the trajectory over the map");
   command.add_flag("--no-deskew{false}", arguments->input.deskew,

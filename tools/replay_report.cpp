@@ -75,6 +75,16 @@ nlohmann::ordered_json to_json(const ReplayReport& report) {
   object["pairs_dropped"] = counters.pairs_dropped;
   object["clock_steps"] = stream.clock_steps;
   object["restarts"] = stream.restarts;
+  if (const auto odometry = report.pipeline.odometry().counters(); odometry.frames != 0) {
+    object["odometry"] = {{"frames", odometry.frames},
+                          {"samples", odometry.samples},
+                          {"invalid", odometry.invalid},
+                          {"jumps", odometry.jumps},
+                          {"silent", odometry.silent},
+                          {"times_left_out", odometry.times_left_out},
+                          {"speed_believed", report.pipeline.odometry().speed().is_believed()},
+                          {"yaw_rate_believed", report.pipeline.odometry().yaw_rate().is_believed()}};
+  }
   object["can_frames"] = {{"dropped", counters.frames_dropped}, {"saturated", counters.frames_saturated}};
   object["points_mean"] = result.points_mean();
   object["iterations_mean"] = result.iterations_mean();
@@ -125,6 +135,15 @@ std::string to_text(const ReplayReport& report) {
        {counters.frames_saturated, "poses beyond what their CAN frames can say"}}};
   for (const auto& [lost, what] : losses) {
     if (lost != 0) text += fmt::format("dropped      {} {}\n", lost, what);
+  }
+  if (const auto odometry = report.pipeline.odometry().counters(); odometry.frames != 0) {
+    text += fmt::format(
+        "odometry     {} frames, {} samples; {} values invalid, {} jumps, silent during {} sweeps, left out "
+        "{} "
+        "times\n             at the end the speed is {}, the yaw rate {}\n",
+        odometry.frames, odometry.samples, odometry.invalid, odometry.jumps, odometry.silent,
+        odometry.times_left_out, report.pipeline.odometry().speed().is_believed() ? "believed" : "left out",
+        report.pipeline.odometry().yaw_rate().is_believed() ? "believed" : "left out");
   }
   text += "time a sweep [ms]    p50      p99      max\n";
   for (const StageTimes& stage : stage_times(report.pipeline)) {

@@ -59,7 +59,8 @@ double ReplayResult::points_mean() const {
 }
 
 ReplayResult run_replay(platform::PacketSource& source, platform::Pipeline& pipeline,
-                        const std::function<void(const platform::SweepResult&)>& on_sweep) {
+                        const std::function<void(const platform::SweepResult&)>& on_sweep,
+                        std::span<const platform::StampedFrame> odometry) {
   ReplayResult result;
   platform::UdpPacket packet;
   platform::ReadStatus status = platform::ReadStatus::packet;
@@ -70,6 +71,10 @@ ReplayResult run_replay(platform::PacketSource& source, platform::Pipeline& pipe
     platform::HeapCounter::arm();
     if (!has_read) status = source.next(packet);
     const bool is_packet = status == platform::ReadStatus::packet;
+    while (is_packet && !odometry.empty() && odometry.front().stamp_utc_ns <= packet.receive_utc_ns) {
+      pipeline.add_odometry(odometry.front().frame, odometry.front().stamp_utc_ns);
+      odometry = odometry.subspan(1);
+    }
     auto sweep = is_packet ? pipeline.predict_missing(packet.receive_utc_ns) : pipeline.finish();
     has_read = is_packet && sweep.has_value();
     if (is_packet && !has_read) sweep = pipeline.process(packet);

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "ndt/pose.hpp"
+#include "platform/can_frame.hpp"
 #include "platform/pcap_source.hpp"
 #include "platform/pipeline.hpp"
 
@@ -30,8 +32,10 @@ struct ReplayResult {
   [[nodiscard]] double points_mean() const;  ///< after the filter
 };
 
-/// Feeds all of `source` to the pipeline. `on_sweep` is called after each sweep, for progress.
+/// Feeds all of `source` to the pipeline, and before each packet the frames of `odometry` that came earlier.
+/// `on_sweep` is called after each sweep, for progress.
 [[nodiscard]] ReplayResult run_replay(platform::PacketSource& source, platform::Pipeline& pipeline,
-                                      const std::function<void(const platform::SweepResult&)>& on_sweep);
+                                      const std::function<void(const platform::SweepResult&)>& on_sweep,
+                                      std::span<const platform::StampedFrame> odometry = {});
 
 }  // namespace landfix::tools

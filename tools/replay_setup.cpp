@@ -49,7 +49,8 @@ namespace {
       .deskew = input.deskew,
       .initial_pose = *initial_pose,
       .can_base_id = configuration.can.base_id,
-      .can_fd = configuration.can.fd};
+      .can_fd = configuration.can.fd,
+      .odometry = configuration.odometry};
   settings.localizer.matcher.max_iterations = configuration.matcher.max_iterations;
   return settings;
 }
