@@ -2,6 +2,8 @@
 // sweep, are uncertain by.
 #pragma once
 
+#include <optional>
+
 #include "ndt/pose.hpp"
 
 namespace landfix::ndt {
@@ -15,8 +17,8 @@ class DeadReckoning {
   /// The direction was held by a match: nothing is owed to prediction any more. `velocity_known`: two matches
   /// have shown it.
   void hold(bool velocity_known) noexcept;
-  /// Nothing has shown where it is for `duration_s`.
-  void pass(double duration_s) noexcept;
+  /// Nothing has shown where it is for `duration_s`. `speed_sigma_mps`: but something has measured the speed.
+  void pass(double duration_s, std::optional<double> speed_sigma_mps = std::nullopt) noexcept;
 
   /// Of a displacement of the vehicle or of the points around it.
   [[nodiscard]] double sigma_m() const noexcept;

@@ -12,6 +12,10 @@ namespace {
   return static_cast<double>(stamp_utc_ns - before.stamp_utc_ns) * 1e-9;
 }
 
+[[nodiscard]] std::optional<double> sigma_of(const std::optional<MeasuredMotion>& measured) noexcept {
+  return measured ? measured->sigma_mps : std::nullopt;
+}
+
 }  // namespace
 
 std::string_view to_string(State state) noexcept {
@@ -40,43 +44,57 @@ Fit judge(const MatchResult& match, const FitGates& gates) noexcept {
 }
 
 Fix Localizer::localize(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns,
-                        const Deadline& deadline) noexcept {
+                        const std::optional<MeasuredMotion>& measured, const Deadline& deadline) noexcept {
   begin_time(stamp_utc_ns);
-  reckoning_.pass(seconds_between(last_, stamp_utc_ns));
-  Fix fix{.at = {stamp_utc_ns, predict(last_, velocity_, stamp_utc_ns)}};
+  reckoning_.pass(seconds_between(last_, stamp_utc_ns), sigma_of(measured));
+  Fix fix{.at = {stamp_utc_ns, predicted_pose(stamp_utc_ns, measured)}};
   fix.match = matcher_.match(map_, points_m, fix.at.pose, reckoning_.sigma_m(), deadline);
   fix.state = next_state(fix);
   if (fix.state >= State::degraded) {
     take_match(fix);
   } else if (fix.state == State::predicted) {
     fix.covariance = predicted_covariance(reckoning_, fix.at.pose);
-  } else if (fix.state == State::lost) {
+  } else if (fix.state == State::lost && !measured) {
     // Wait where the last usable pose was: after a leap of the clock the prediction may be anywhere.
     fix.at.pose = last_.pose;
     stand_still(last_.pose);
   }
-  fix.velocity = velocity_;
+  fix.velocity = measured ? measured->velocity : velocity_;
   last_ = fix.at;
+  last_sweep_utc_ns_ = stamp_utc_ns;
   state_ = fix.state;
   return fix;
 }
 
-Fix Localizer::predict_missing(std::int64_t stamp_utc_ns) const noexcept {
+Fix Localizer::predict_missing(std::int64_t stamp_utc_ns,
+                               const std::optional<MeasuredMotion>& measured) const noexcept {
   Fix fix{.at = {stamp_utc_ns, last_.pose}, .state = state_without_match(stamp_utc_ns)};
   if (fix.state != State::predicted) return fix;
   DeadReckoning reckoning = reckoning_;
-  reckoning.pass(seconds_between(last_, stamp_utc_ns));
-  fix.at.pose = predict(last_, velocity_, stamp_utc_ns);
-  fix.velocity = velocity_;
+  reckoning.pass(seconds_between(last_, stamp_utc_ns), sigma_of(measured));
+  fix.at.pose = predicted_pose(stamp_utc_ns, measured);
+  fix.velocity = measured ? measured->velocity : velocity_;
   fix.covariance = predicted_covariance(reckoning, fix.at.pose);
   return fix;
 }
 
-Fix Localizer::wait_for_data(std::int64_t stamp_utc_ns) noexcept {
-  const auto lost_after_ns = static_cast<std::int64_t>(settings_.lost_after_s * 1e9);
-  stand_still(predict(last_, velocity_, last_.stamp_utc_ns + lost_after_ns));
+Fix Localizer::wait_for_data(std::int64_t stamp_utc_ns,
+                             const std::optional<MeasuredMotion>& measured) noexcept {
+  if (measured) {
+    reckoning_.pass(seconds_between(last_, stamp_utc_ns), sigma_of(measured));
+    last_ = {stamp_utc_ns, predicted_pose(stamp_utc_ns, measured)};
+    velocity_ = measured->velocity;
+  } else {
+    const auto lost_after_ns = static_cast<std::int64_t>(settings_.lost_after_s * 1e9);
+    stand_still(predict(last_, velocity_, last_.stamp_utc_ns + lost_after_ns));
+  }
   if (state_ != State::init) state_ = State::lost;
   return {.at = {stamp_utc_ns, last_.pose}, .state = State::no_data};
+}
+
+Pose Localizer::predicted_pose(std::int64_t stamp_utc_ns,
+                               const std::optional<MeasuredMotion>& measured) const noexcept {
+  return measured ? last_.pose * measured->change : predict(last_, velocity_, stamp_utc_ns);
 }
 
 /// Where a clock was set back, time begins anew: nothing is predicted backwards, and LOST is still in reach.
@@ -84,16 +102,18 @@ void Localizer::begin_time(std::int64_t stamp_utc_ns) noexcept {
   if (!std::exchange(any_sweep_, true)) {
     last_.stamp_utc_ns = stamp_utc_ns;
     last_matched_ = last_;
+    last_sweep_utc_ns_ = stamp_utc_ns;
   }
+  last_sweep_utc_ns_ = std::min(last_sweep_utc_ns_, stamp_utc_ns);
   last_.stamp_utc_ns = std::min(last_.stamp_utc_ns, stamp_utc_ns);
   last_matched_.stamp_utc_ns = std::min(last_matched_.stamp_utc_ns, stamp_utc_ns);
 }
 
 State Localizer::next_state(const Fix& fix) const noexcept {
   const Pose& prediction = fix.at.pose;
+  const double since_sweep_s = static_cast<double>(fix.at.stamp_utc_ns - last_sweep_utc_ns_) * 1e-9;
   const double share =
-      std::clamp(seconds_between(last_, fix.at.stamp_utc_ns) / settings_.innovation_full_after_s,
-                 settings_.innovation_least_share, 1.0);
+      std::clamp(since_sweep_s / settings_.innovation_full_after_s, settings_.innovation_least_share, 1.0);
   const bool is_near = (fix.match.pose.translation() - prediction.translation()).norm() <
                            share * settings_.innovation_limit_m &&
                        angle_between(fix.match.pose, prediction) < share * settings_.innovation_limit_rad;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -11,6 +12,7 @@
 #include "ndt/dead_reckoning.hpp"
 #include "ndt/deadline.hpp"
 #include "ndt/matcher.hpp"
+#include "ndt/measured_motion.hpp"
 #include "ndt/motion.hpp"
 #include "ndt/voxel_map.hpp"
 
@@ -92,23 +94,32 @@ class Localizer {
 
   /// The last published pose.
   [[nodiscard]] const Pose& pose() const noexcept { return last_.pose; }
+  /// The time that it holds for: of the last sweep, or of what was measured since.
+  [[nodiscard]] std::int64_t last_stamp_utc_ns() const noexcept { return last_.stamp_utc_ns; }
   /// The velocity to undo the next sweep's distortion with.
   [[nodiscard]] const Velocity& velocity() const noexcept { return velocity_; }
 
   /// `points_m`: deskewed and filtered, frame `vehicle` at `stamp_utc_ns`, the end of the sweep. Where
-  /// stamps do not rise the prediction stands still. `deadline`: of the match; one that it cuts short is not
+  /// stamps do not rise the prediction stands still. `measured`: the motion since `last_stamp_utc_ns`, by
+  /// another sensor; else it goes on as it was. `deadline`: of the match; one that it cuts short is not
   /// believed.
   [[nodiscard]] Fix localize(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns,
+                             const std::optional<MeasuredMotion>& measured = std::nullopt,
                              const Deadline& deadline = {}) noexcept;
 
   /// What may be said of a sweep that has not come: PREDICTED, LOST or still INIT. Nothing that is known
   /// changes by it: the sweep may only be late.
-  [[nodiscard]] Fix predict_missing(std::int64_t stamp_utc_ns) const noexcept;
-  /// NO_DATA: the sensor is silent. The next sweep is looked for where the motion had led by `lost_after_s`.
-  [[nodiscard]] Fix wait_for_data(std::int64_t stamp_utc_ns) noexcept;
+  [[nodiscard]] Fix predict_missing(
+      std::int64_t stamp_utc_ns, const std::optional<MeasuredMotion>& measured = std::nullopt) const noexcept;
+  /// NO_DATA: the sensor is silent. The next sweep is looked for where the measured motion leads, else where
+  /// the motion had led by `lost_after_s`.
+  [[nodiscard]] Fix wait_for_data(std::int64_t stamp_utc_ns,
+                                  const std::optional<MeasuredMotion>& measured = std::nullopt) noexcept;
 
  private:
   void begin_time(std::int64_t stamp_utc_ns) noexcept;
+  [[nodiscard]] Pose predicted_pose(std::int64_t stamp_utc_ns,
+                                    const std::optional<MeasuredMotion>& measured) const noexcept;
   [[nodiscard]] State next_state(const Fix& fix) const noexcept;
   [[nodiscard]] State state_without_match(std::int64_t stamp_utc_ns) const noexcept;
   [[nodiscard]] Matrix6 predicted_covariance(const DeadReckoning& reckoning, const Pose& pose) const noexcept;
@@ -118,7 +129,8 @@ class Localizer {
   VoxelMap map_;
   LocalizerSettings settings_;
   Matcher matcher_;
-  StampedPose last_;          ///< published
+  StampedPose last_;  ///< published, or where the measured motion has led since
+  std::int64_t last_sweep_utc_ns_ = 0;
   StampedPose last_matched_;  ///< by a match, TRACKING or DEGRADED
   Velocity velocity_ = Velocity::Zero();
   DeadReckoning reckoning_;

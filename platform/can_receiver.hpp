@@ -16,7 +16,7 @@
 namespace landfix::platform {
 
 /// One thread receives and maintains; any may read the state and the counters.
-class CanReceiver {
+class CanReceiver final : public FrameSource {
  public:
   static constexpr std::size_t kMaxIds = 64;
 
@@ -24,15 +24,15 @@ class CanReceiver {
   /// is such an interface, `state` says.
   CanReceiver(std::string_view interface, std::span<const CanId> ids,
               const CanSystem& system = linux_can()) noexcept;
-  CanReceiver(const CanReceiver&) = delete;
-  CanReceiver& operator=(const CanReceiver&) = delete;
-  ~CanReceiver() = default;
 
   /// The next frame; false if there is none now. Never waits.
   [[nodiscard]] bool receive(CanFrame& frame, std::int64_t& stamp_utc_ns) noexcept;
 
   /// To be called every 100 ms or more often: opens the interface anew where it was lost. Never waits.
-  void maintain(std::int64_t monotonic_ns) noexcept { (void)port_.maintain(monotonic_ns); }
+  void maintain(std::int64_t monotonic_ns) noexcept override { (void)port_.maintain(monotonic_ns); }
+  [[nodiscard]] bool next(StampedFrame& frame, std::int64_t /*now_utc_ns*/) noexcept override {
+    return receive(frame.frame, frame.stamp_utc_ns);
+  }
 
   /// To wait on with poll(2), until the next `receive` or `maintain`; negative: none, the interface is
   /// missing.

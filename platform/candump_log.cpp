@@ -153,4 +153,24 @@ std::optional<LoggedFrame> parse_candump_line(std::string_view line) noexcept {
   return logged;
 }
 
+std::vector<StampedFrame> read_candump(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_file(path);
+  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  std::vector<StampedFrame> frames;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (const auto logged = parse_candump_line(text.substr(0, end)))
+      frames.push_back({logged->stamp_utc_ns, logged->frame});
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  if (frames.empty()) {
+    throw std::runtime_error(
+        fmt::format("{}: no CAN frame in it; expected a log as candump -l writes it", path.string()));
+  }
+  std::stable_sort(frames.begin(), frames.end(), [](const StampedFrame& a, const StampedFrame& b) {
+    return a.stamp_utc_ns < b.stamp_utc_ns;
+  });
+  return frames;
+}
+
 }  // namespace landfix::platform

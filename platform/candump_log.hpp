@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "platform/atomic_file.hpp"
 #include "platform/can_frame.hpp"
@@ -45,6 +46,10 @@ struct LoggedFrame {
   std::string_view interface;  ///< points into the line
   CanFrame frame{};
 };
+
+/// The data frames of a log, by rising stamps, those of one stamp in the order of the log. Throws
+/// std::runtime_error where there is none.
+[[nodiscard]] std::vector<StampedFrame> read_candump(const std::filesystem::path& path);
 
 /// A data frame; nothing for remote frames and lines that are no frame.
 [[nodiscard]] std::optional<LoggedFrame> parse_candump_line(std::string_view line) noexcept;

@@ -13,6 +13,7 @@
 #include "platform/atomic_file.hpp"
 #include "platform/candump_log.hpp"
 #include "platform/ipv4.hpp"
+#include "platform/odometry_configuration.hpp"
 #include "platform/pose_frame_table.hpp"
 #include "platform/toml_section.hpp"
 
@@ -21,8 +22,8 @@ namespace {
 
 constexpr std::size_t kMaxUnixPathLength = 107;
 
-constexpr std::array kSections{"sensor", "vehicle", "map", "initial_pose",
-                               "filter", "matcher", "can", "realtime", "metrics"};
+constexpr std::array kSections{"sensor",  "vehicle", "map",      "initial_pose", "filter",
+                               "matcher", "can",     "realtime", "metrics",      "odometry"};
 
 bool is_ipv4(std::string_view text) { return parse_ipv4(text).has_value(); }
 
@@ -161,6 +162,7 @@ Configuration parse_configuration(std::string_view text, const std::filesystem::
   read_can({path, root, "can"}, configuration.can);
   read_realtime({path, root, "realtime"}, configuration.realtime);
   read_metrics({path, root, "metrics"}, configuration.metrics);
+  read_odometry({path, root, "odometry"}, configuration.odometry);
   return configuration;
 }
 

@@ -10,6 +10,7 @@
 
 #include "ndt/pose.hpp"
 #include "ndt/scan_filter.hpp"
+#include "platform/odometry.hpp"
 #include "platform/realtime_settings.hpp"
 
 namespace landfix::platform {
@@ -32,9 +33,9 @@ struct VehicleSettings {
 };
 
 struct MapSettings {
-  std::filesystem::path file;  ///< empty: must come from elsewhere
+  std::filesystem::path file;       ///< empty: must come from elsewhere
   std::filesystem::path projector;  ///< Autoware's map_projector_info.yaml; empty: none
-  double memory_mib = 0.0;     ///< that a map may take, else a window of it; 0: as much as it needs
+  double memory_mib = 0.0;          ///< that a map may take, else a window of it; 0: as much as it needs
 };
 
 struct InitialPoseSettings {
@@ -69,6 +70,7 @@ struct Configuration {
   CanSettings can{};
   RealtimeSettings realtime{};
   MetricsSettings metrics{};
+  OdometrySettings odometry{};
 };
 
 /// Paths within the file are relative to its folder. Throws std::runtime_error: path:line:column, what is

@@ -13,12 +13,13 @@ namespace landfix::platform {
 
 struct EngineParts {
   EngineParts(const EngineSettings& engine_settings, const drivers::AnyDecoder& decoder,
-              const ndt::VoxelMap& map, MapWindow* window, PacketReceiver& receiver, FrameSink* bus)
+              const ndt::VoxelMap& map, MapWindow* window, PacketReceiver& receiver, FrameSink* bus,
+              FrameSource* odometry)
       : settings(engine_settings),
         links(settings.mode, settings.slot_bytes, settings.slots),
         pipeline(settings.pipeline, decoder, map, nullptr, window),
         receive(links, receiver),
-        solve(links, pipeline, settings.deadline_ns),
+        solve(links, pipeline, odometry, settings.deadline_ns),
         send(links, settings.pipeline.publish, settings.rate_hz, bus) {}
 
   EngineSettings settings;
@@ -52,8 +53,8 @@ void begin_thread(EngineParts& parts, const char* name, ThreadSchedule schedule,
 }  // namespace
 
 Engine::Engine(const EngineSettings& settings, const drivers::AnyDecoder& decoder, const ndt::VoxelMap& map,
-               MapWindow* window, PacketReceiver& receiver, FrameSink* bus)
-    : parts_(std::make_unique<EngineParts>(settings, decoder, map, window, receiver, bus)) {
+               MapWindow* window, PacketReceiver& receiver, FrameSink* bus, FrameSource* odometry)
+    : parts_(std::make_unique<EngineParts>(settings, decoder, map, window, receiver, bus, odometry)) {
   parts_->pipeline.warm_up();
 }
 

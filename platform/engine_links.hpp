@@ -54,6 +54,7 @@ struct SolveStatus {
   SolveCounters counters;
   PipelineCounters pipeline;
   drivers::StreamCounters stream;
+  OdometryStatus odometry;
 };
 
 struct EngineLinks {

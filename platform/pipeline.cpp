@@ -42,8 +42,10 @@ std::optional<SweepResult> Pipeline::finish() noexcept {
 std::optional<SweepResult> Pipeline::predict_missing(std::int64_t now_utc_ns) noexcept {
   while (const auto missing = schedule_.next_missing(now_utc_ns)) {
     if (missing->is_silence) drop_begun_sweep();
-    SweepResult result{.fix = missing->is_silence ? localizer_.wait_for_data(missing->stamp_utc_ns)
-                                                  : localizer_.predict_missing(missing->stamp_utc_ns),
+    const auto measured = motion_to(missing->stamp_utc_ns);
+    SweepResult result{.fix = missing->is_silence
+                                  ? localizer_.wait_for_data(missing->stamp_utc_ns, measured)
+                                  : localizer_.predict_missing(missing->stamp_utc_ns, measured),
                        .seen_utc_ns = seen_utc_ns_,
                        .missing = true,
                        .time_source = time_source_};
@@ -67,8 +69,9 @@ void Pipeline::filter_new_points(const drivers::Sweep& sweep) noexcept {
   const std::int64_t began_ns = monotonic_ns();
   if (sweep.points().empty()) return;
   if (!std::exchange(is_filtering_, true)) {
-    // The velocity of the sweep before, as its match has just run.
-    const ndt::Velocity velocity = settings_.deskew ? localizer_.velocity() : ndt::Velocity::Zero();
+    // Measured, or the velocity of the sweep before, as its match has just run.
+    const ndt::Velocity velocity =
+        settings_.deskew ? velocity_at(sweep.start_utc_ns()) : ndt::Velocity::Zero();
     deskew_.begin(sweep.start_utc_ns(), velocity, settings_.sensor_pose);
   }
   const auto late_s =
@@ -102,6 +105,7 @@ SweepResult Pipeline::localize(const drivers::Sweep& sweep, const SweepOrders& o
   times_.matched_ns = monotonic_ns();
   record(Stage::match, times_.matched_ns - times_.filtered_ns);
 
+  check_odometry(fix);
   seen_utc_ns_ = sweep.end_utc_ns();
   time_source_ = sweep.time_source();
   const SweepResult result{.fix = fix,
@@ -120,9 +124,36 @@ SweepResult Pipeline::localize(const drivers::Sweep& sweep, const SweepOrders& o
 
 ndt::Fix Pipeline::fix_of(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns,
                           const SweepOrders& orders) noexcept {
-  if (orders.skip_match) return localizer_.predict_missing(stamp_utc_ns);
+  if (orders.skip_match) return localizer_.predict_missing(stamp_utc_ns, motion_to(stamp_utc_ns));
   if (window_ != nullptr) localizer_.use_map(window_->newest(localizer_.pose().translation()));
-  return localizer_.localize(points_m, stamp_utc_ns, orders.deadline);
+  return localizer_.localize(points_m, stamp_utc_ns, motion_to(stamp_utc_ns), orders.deadline);
+}
+
+std::optional<ndt::MeasuredMotion> Pipeline::motion_to(std::int64_t stamp_utc_ns) const noexcept {
+  // Odometry is by the clock of receipt.
+  return odometry_.motion(schedule_.received(localizer_.last_stamp_utc_ns()),
+                          schedule_.received(stamp_utc_ns), localizer_.velocity());
+}
+
+ndt::Velocity Pipeline::velocity_at(std::int64_t stamp_utc_ns) const noexcept {
+  const std::int64_t received_utc_ns = schedule_.received(stamp_utc_ns);
+  const auto measured = odometry_.motion(received_utc_ns, received_utc_ns, localizer_.velocity());
+  return measured ? measured->velocity : localizer_.velocity();
+}
+
+void Pipeline::check_odometry(const ndt::Fix& fix) noexcept {
+  constexpr std::int64_t kShortest_ns = 40'000'000;
+  constexpr std::int64_t kLongest_ns = 300'000'000;
+  if (fix.state != ndt::State::tracking) {
+    last_tracked_.reset();
+    return;
+  }
+  const auto before = std::exchange(last_tracked_, fix.at);
+  if (!before) return;
+  const std::int64_t between_ns = fix.at.stamp_utc_ns - before->stamp_utc_ns;
+  if (between_ns < kShortest_ns || between_ns > kLongest_ns) return;
+  odometry_.compare(schedule_.received(before->stamp_utc_ns), schedule_.received(fix.at.stamp_utc_ns),
+                    ndt::velocity_between(*before, fix.at));
 }
 
 void Pipeline::publish(const SweepResult& result) noexcept {

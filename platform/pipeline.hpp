@@ -21,6 +21,7 @@
 #include "platform/can_frame.hpp"
 #include "platform/latency_histogram.hpp"
 #include "platform/map_window.hpp"
+#include "platform/odometry.hpp"
 #include "platform/packet_source.hpp"
 #include "platform/pose_publisher.hpp"
 #include "platform/stage.hpp"
@@ -41,6 +42,7 @@ struct PipelineSettings {
   ndt::LocalizerSettings localizer{};
   ndt::Pose initial_pose = ndt::Pose::Identity();  ///< map <- vehicle
   PublishSettings publish;
+  OdometrySettings odometry{};
 };
 
 /// What a sweep that a packet completes may cost, where others wait.
@@ -85,6 +87,10 @@ class Pipeline {
   /// sweep is missing half a period after it was due. For a second they are PREDICTED, then NO_DATA twice a
   /// second; what is left of a sweep that was begun is then dropped. Nothing before the first sweep.
   [[nodiscard]] std::optional<SweepResult> predict_missing(std::int64_t now_utc_ns) noexcept;
+  /// Takes a frame of the vehicle's bus, by its time of receipt; to be told before a packet that came later.
+  void add_odometry(FrameSource& source, std::int64_t now_utc_ns) noexcept {
+    for (StampedFrame frame; source.next(frame, now_utc_ns);) odometry_.add(frame.frame, frame.stamp_utc_ns);
+  }
   /// At the end of the packets: what came of the last sweep, if any is begun.
   [[nodiscard]] std::optional<SweepResult> finish() noexcept;
 
@@ -93,6 +99,7 @@ class Pipeline {
   [[nodiscard]] const drivers::StreamCounters& stream_counters() const noexcept {
     return decoder_.counters();
   }
+  [[nodiscard]] const Odometry& odometry() const noexcept { return odometry_; }
   [[nodiscard]] const LatencyHistogram& durations(Stage stage) const noexcept {
     return durations_[static_cast<std::size_t>(stage)];
   }
@@ -100,6 +107,9 @@ class Pipeline {
  private:
   [[nodiscard]] SweepResult localize(const drivers::Sweep& sweep, const SweepOrders& orders) noexcept;
   void drop_begun_sweep() noexcept;
+  [[nodiscard]] std::optional<ndt::MeasuredMotion> motion_to(std::int64_t stamp_utc_ns) const noexcept;
+  [[nodiscard]] ndt::Velocity velocity_at(std::int64_t stamp_utc_ns) const noexcept;
+  void check_odometry(const ndt::Fix& fix) noexcept;
   void filter_new_points(const drivers::Sweep& sweep) noexcept;
   [[nodiscard]] std::span<const Eigen::Vector3f> finish_filter(std::int64_t end_utc_ns) noexcept;
   void publish(const SweepResult& result) noexcept;
@@ -116,6 +126,8 @@ class Pipeline {
   bool is_filtering_ = false;  ///< the filter has points of the current sweep
   ndt::Localizer localizer_;
   SweepSchedule schedule_;
+  Odometry odometry_;
+  std::optional<ndt::StampedPose> last_tracked_;  ///< of the last sweep, if it was TRACKING
   std::int64_t seen_utc_ns_ = 0;
   drivers::TimeSource time_source_ = drivers::TimeSource::receive;  ///< of the last sweep
   PosePublisher publisher_;

@@ -25,6 +25,7 @@ bool SolveLoop::solve_packet() noexcept {
   const PacketHeader header = links_.packets.header();
   kernel_receive_.record(header.taken_mono_ns - header.arrived_mono_ns);
   ring_wait_.record(monotonic_ns() - header.taken_mono_ns);
+  take_odometry(header.receive_utc_ns);
   predict_until(header.receive_utc_ns);
   ++packets_of_sweep_;
   const auto result = pipeline_.process(links_.packets.front(), orders(header));
@@ -50,6 +51,19 @@ SweepOrders SolveLoop::orders(const PacketHeader& header) noexcept {
   return orders;
 }
 
+/// A log's frames come with the packets' times; a bus, which stamps its own, is asked a few times a sweep.
+void SolveLoop::take_odometry(std::int64_t now_utc_ns) noexcept {
+  constexpr std::int64_t kPeriod_ns = 2'000'000;
+  if (odometry_ == nullptr) return;
+  if (links_.mode == EngineMode::live) {
+    const std::int64_t now_ns = monotonic_ns();
+    if (now_ns < odometry_due_ns_) return;
+    odometry_due_ns_ = now_ns + kPeriod_ns;
+    odometry_->maintain(now_ns);
+  }
+  pipeline_.add_odometry(*odometry_, now_utc_ns);
+}
+
 void SolveLoop::predict_until(std::int64_t now_utc_ns) noexcept {
   while (const auto result = pipeline_.predict_missing(now_utc_ns)) {
     ++counters_.sweeps_missing;
@@ -60,7 +74,11 @@ void SolveLoop::predict_until(std::int64_t now_utc_ns) noexcept {
 void SolveLoop::wait() noexcept {
   // While packets come they wake it; this often a missing sweep is noticed.
   constexpr std::int64_t kLongest_ns = 10'000'000;
-  if (links_.mode == EngineMode::live) predict_until(utc_ns());
+  if (links_.mode == EngineMode::live) {
+    const std::int64_t now_utc_ns = utc_ns();
+    take_odometry(now_utc_ns);
+    predict_until(now_utc_ns);
+  }
   links_.packets_bell.wait(monotonic_ns() + kLongest_ns);
 }
 
@@ -86,7 +104,8 @@ void SolveLoop::pass_on(const SweepResult& result, std::int64_t arrived_mono_ns)
   links_.status.back() = {.last = sweep,
                           .counters = counters_,
                           .pipeline = pipeline_.counters(),
-                          .stream = pipeline_.stream_counters()};
+                          .stream = pipeline_.stream_counters(),
+                          .odometry = pipeline_.odometry().status()};
   links_.status.publish();
   watch_.look();
 }

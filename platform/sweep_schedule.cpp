@@ -28,21 +28,20 @@ constexpr std::int64_t kLongest_ns = 315'360'000'000'000'000;
 void SweepSchedule::came(std::int64_t stamp_utc_ns, std::int64_t received_utc_ns) noexcept {
   if (any_) learn_period(wrapped_difference(stamp_utc_ns, last_stamp_utc_ns_));
   any_ = true;
+  clock_offset_ns_ = offsets_ns_.add(wrapped_difference(received_utc_ns, stamp_utc_ns));
   last_stamp_utc_ns_ = stamp_utc_ns;
   last_received_utc_ns_ = received_utc_ns;
   newest_utc_ns_ = received_utc_ns;
   missing_ = 0;
 }
 
+std::int64_t SweepSchedule::received(std::int64_t stamp_utc_ns) const noexcept {
+  return wrapped_sum(stamp_utc_ns, clock_offset_ns_);
+}
+
 void SweepSchedule::learn_period(std::int64_t between_ns) noexcept {
   if (between_ns < kShortestPeriod_ns || between_ns > kLongestPeriod_ns) return;
-  between_ns_[learned_ % between_ns_.size()] = between_ns;
-  ++learned_;
-  auto sorted_ns = between_ns_;
-  const auto end = sorted_ns.begin() + static_cast<std::ptrdiff_t>(std::min(learned_, sorted_ns.size()));
-  const auto middle = sorted_ns.begin() + (end - sorted_ns.begin()) / 2;
-  std::nth_element(sorted_ns.begin(), middle, end);
-  period_ns_ = *middle;
+  period_ns_ = periods_ns_.add(between_ns);
 }
 
 void SweepSchedule::follow_clock(std::int64_t now_utc_ns) noexcept {

@@ -2,10 +2,10 @@
 // the sweeps' own stamps, and which may be set.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
+
+#include "platform/running_median.hpp"
 
 namespace landfix::platform {
 
@@ -30,6 +30,8 @@ class SweepSchedule {
   /// are few.
   [[nodiscard]] std::optional<MissingSweep> next_missing(std::int64_t now_utc_ns) noexcept;
 
+  /// When a sweep of this stamp was, or will be, received.
+  [[nodiscard]] std::int64_t received(std::int64_t stamp_utc_ns) const noexcept;
   [[nodiscard]] std::int64_t period_ns() const noexcept { return period_ns_; }
 
  private:
@@ -38,8 +40,9 @@ class SweepSchedule {
 
   std::int64_t silent_after_ns_;
   std::int64_t period_ns_;
-  std::array<std::int64_t, 5> between_ns_{};  ///< the last sweeps; the median bears a splinter and a gap
-  std::size_t learned_ = 0;
+  std::int64_t clock_offset_ns_ = 0;
+  RunningMedian<std::int64_t, 5> periods_ns_;  ///< bears a splinter of a sweep and a gap
+  RunningMedian<std::int64_t, 5> offsets_ns_;  ///< bears a sweep that was ended late, by a gap
   std::int64_t last_stamp_utc_ns_ = 0;
   std::int64_t last_received_utc_ns_ = 0;
   std::int64_t newest_utc_ns_ = 0;  ///< the clock when it was last told

@@ -115,6 +115,34 @@ void TomlSection::read(std::string_view key, std::filesystem::path& value) {
   value = text->empty() ? std::filesystem::path() : file_.parent_path() / *text;
 }
 
+void TomlSection::read(std::string_view key, std::array<std::uint64_t, 4>& values, std::size_t& count) {
+  const toml::node* const node = find(key);
+  if (node == nullptr) return;
+  const toml::array* const array = node->as_array();
+  bool good = array != nullptr && array->size() <= values.size();
+  for (std::size_t i = 0; good && i < array->size(); ++i) {
+    const auto number = array->get(i)->value_exact<std::int64_t>();
+    good = number && *number >= 0;
+    values[i] = static_cast<std::uint64_t>(number.value_or(0));
+  }
+  if (!good) fail(key, *node, fmt::format("a list of at most {} whole numbers from 0 on", values.size()));
+  count = array->size();
+}
+
+std::vector<TomlSection> TomlSection::tables(std::string_view key, std::string_view name) {
+  std::vector<TomlSection> tables;
+  const toml::node* const node = find(key);
+  if (node == nullptr) return tables;
+  const toml::array* const array = node->as_array();
+  if (array == nullptr) fail(key, *node, fmt::format("tables, each [[{}]]", name));
+  for (const toml::node& element : *array) {
+    const toml::table* const table = element.as_table();
+    if (table == nullptr) fail(key, element, fmt::format("a table, [[{}]]", name));
+    tables.push_back(TomlSection(file_, name, *table));
+  }
+  return tables;
+}
+
 void TomlSection::read(std::string_view key, ndt::Pose& value) {
   std::optional<ndt::Pose> pose;
   read(key, pose);

@@ -1,6 +1,8 @@
 // Reads the keys of one TOML section into variables, each with a check; what was not asked for is an error.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -36,6 +38,10 @@ class TomlSection {
   /// [x, y, z, roll_deg, pitch_deg, yaw_deg], metres and degrees.
   void read(std::string_view key, ndt::Pose& value);
   void read(std::string_view key, std::optional<ndt::Pose>& value);
+  /// A list of whole numbers from 0 on, four at most.
+  void read(std::string_view key, std::array<std::uint64_t, 4>& values, std::size_t& count);
+  /// The tables of [[NAME.KEY]], which `name` calls by their full name.
+  [[nodiscard]] std::vector<TomlSection> tables(std::string_view key, std::string_view name);
 
   template <class Integer>
   void read(std::string_view key, Integer& value, Range<Integer> range) {
@@ -60,6 +66,9 @@ class TomlSection {
   [[noreturn]] void fail(std::string_view key, std::string_view expected) const;
 
  private:
+  TomlSection(const std::filesystem::path& file, std::string_view name, const toml::table& table)
+      : file_(file), name_(name), table_(&table) {}
+
   [[nodiscard]] const toml::node* find(std::string_view key);
   [[nodiscard]] std::int64_t integer(std::string_view key, std::int64_t value, Range<std::int64_t> range);
   [[noreturn]] void fail(std::string_view key, const toml::node& node, std::string_view expected) const;

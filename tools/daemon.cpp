@@ -1,5 +1,6 @@
 #include "tools/daemon.hpp"
 
+#include <algorithm>
 #include <csignal>
 #include <ctime>
 #include <exception>
@@ -7,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "platform/can_receiver.hpp"
 #include "platform/engine.hpp"
 #include "platform/map_loader.hpp"
 #include "platform/monotonic_clock.hpp"
@@ -62,6 +64,17 @@ void resume(ReplaySetup& setup) {
   }
 }
 
+[[nodiscard]] std::vector<platform::CanId> ids_of(const platform::OdometrySettings& odometry) {
+  std::vector<platform::CanId> ids;
+  for (const platform::OdometrySignal& signal : odometry.all()) {
+    const bool is_known = std::any_of(ids.begin(), ids.end(), [&signal](const platform::CanId& id) {
+      return id.id == signal.id && id.extended == signal.extended;
+    });
+    if (!is_known) ids.push_back({signal.id, signal.extended});
+  }
+  return ids;
+}
+
 void keep_house(platform::RunningEngine& engine, House& house, const Signals& signals) {
   constexpr std::int64_t kTurn_ns = 50'000'000;
   for (;;) {
@@ -85,9 +98,12 @@ void run_daemon(const std::filesystem::path& config) {
   platform::UdpReceiver receiver(platform::udp_settings(setup.configuration.sensor, setup.model));
   for (const std::string& warning : receiver.warnings()) log_line(Severity::warning, warning);
   platform::SocketCan bus(setup.configuration.can.interface, setup.configuration.can.fd);
+  const std::vector<platform::CanId> odometry_ids = ids_of(setup.configuration.odometry);
+  std::optional<platform::CanReceiver> odometry;
+  if (!odometry_ids.empty()) odometry.emplace(setup.configuration.can.interface, odometry_ids);
   platform::RunningEngine engine(platform::Engine(engine_settings(setup, platform::EngineMode::live),
                                                   setup.decoder, setup.map(), setup.window.get(), receiver,
-                                                  &bus));
+                                                  &bus, odometry ? &*odometry : nullptr));
   for (const std::string& missing : engine.missing()) log_line(Severity::warning, missing);
   std::optional<platform::MapLoader> loader;  // after the memory was locked: its stack need not be
   if (setup.window) loader.emplace(*setup.window);

@@ -36,6 +36,7 @@ struct Arguments {
   std::string pcap;
   std::string trajectory;
   std::string candump;
+  std::string odometry;
   std::string truth;
   std::string svg;
   bool realtime = false;
@@ -77,20 +78,24 @@ void warn_of_window(const platform::MapWindowCounters& counters) {
 
 /// In this thread, packet after packet: as fast as can be, and the same whenever it is done again.
 [[nodiscard]] ReplayResult replay_at_once(const ReplaySetup& setup, const std::filesystem::path& capture,
-                                          platform::FrameSink* bus) {
+                                          platform::FrameSink* bus, platform::FrameSource& odometry) {
   platform::PcapSource source(capture);
   platform::Pipeline pipeline(setup.settings, setup.decoder, setup.map(), bus, setup.window.get());
-  ReplayResult result = run_replay(source, pipeline, [&](const platform::SweepResult& sweep) {
-    if (setup.window) (void)setup.window->load();  // here, so that two replays are the same
-    show_progress(fmt::format("{:3.0f} %  {}", source.percent_read(), ndt::to_string(sweep.fix.state)));
-  });
+  ReplayResult result = run_replay(
+      source, pipeline,
+      [&](const platform::SweepResult& sweep) {
+        if (setup.window) (void)setup.window->load();  // here, so that two replays are the same
+        show_progress(fmt::format("{:3.0f} %  {}", source.percent_read(), ndt::to_string(sweep.fix.state)));
+      },
+      &odometry);
   warn_of_losses(capture.string(), source.counters());
   return result;
 }
 
 /// In the threads of the vehicle. Where the laps are many, their results are counted, not kept.
 [[nodiscard]] ReplayResult replay_in_threads(const Arguments& arguments, const ReplaySetup& setup,
-                                             const std::filesystem::path& capture, platform::FrameSink* bus) {
+                                             const std::filesystem::path& capture, platform::FrameSink* bus,
+                                             platform::FrameSource& odometry) {
   const auto mode =
       arguments.realtime ? platform::EngineMode::paced_replay : platform::EngineMode::fast_replay;
   platform::PcapReceiver receiver(
@@ -98,7 +103,7 @@ void warn_of_window(const platform::MapWindowCounters& counters) {
   const bool keep_sweeps = arguments.laps == 1 || !arguments.trajectory.empty() || !arguments.truth.empty() ||
                            !arguments.svg.empty();
   platform::RunningEngine engine(platform::Engine(engine_settings(setup, mode), setup.decoder, setup.map(),
-                                                  setup.window.get(), receiver, bus));
+                                                  setup.window.get(), receiver, bus, &odometry));
   for (const std::string& missing : engine.missing()) fmt::print(stderr, "landfix: {}\n", missing);
   std::optional<platform::MapLoader> loader;  // after the memory was locked: its stack need not be
   if (setup.window) loader.emplace(*setup.window);
@@ -106,6 +111,16 @@ void warn_of_window(const platform::MapWindowCounters& counters) {
   return run_engine(engine, receiver.counters(), keep_sweeps, [&](const platform::SolvedSweep& sweep) {
     show_progress(fmt::format("sweep {}  {}", ++sweeps, ndt::to_string(sweep.result.fix.state)));
   });
+}
+
+[[nodiscard]] std::vector<platform::StampedFrame> read_odometry(const Arguments& arguments,
+                                                                const ReplaySetup& setup) {
+  if (arguments.odometry.empty()) return {};
+  if (setup.settings.odometry.count == 0) {
+    throw UsageError(fmt::format("--odometry: [[odometry.signal]] in {} must say what the frames mean",
+                                 arguments.input.config.string()));
+  }
+  return platform::read_candump(arguments.odometry);
 }
 
 void replay(const Arguments& arguments) {
@@ -118,8 +133,11 @@ void replay(const Arguments& arguments) {
                                             ? arguments.input.config.parent_path() / "capture.pcap"
                                             : std::filesystem::path(arguments.pcap);
   platform::FrameSink* const sink = bus ? &*bus : nullptr;
-  const ReplayResult result = uses_threads(arguments) ? replay_in_threads(arguments, setup, capture, sink)
-                                                      : replay_at_once(setup, capture, sink);
+  const std::vector<platform::StampedFrame> logged = read_odometry(arguments, setup);
+  platform::FrameLog odometry(logged);
+  const ReplayResult result = uses_threads(arguments)
+                                  ? replay_in_threads(arguments, setup, capture, sink, odometry)
+                                  : replay_at_once(setup, capture, sink, odometry);
   show_progress("");
   if (setup.window) warn_of_window(setup.window->counters());
   if (result.tally.came() == 0) {
@@ -161,6 +179,8 @@ void add_replay_command(CLI::App& app) {
                   "pose at the first sweep, map <- vehicle [m, deg], in place of the configuration's");
   add_file("--trajectory", arguments->trajectory, "OUT.tum", "write the poses");
   add_file("--candump", arguments->candump, "OUT.log", "write the CAN frames, as candump -l does");
+  add_file("--odometry", arguments->odometry, "CAN.log",
+           "frames of the vehicle's bus, as candump -l writes them: what [odometry] tells how to read");
   add_file("--truth", arguments->truth, "TRUTH.tum", "true trajectory: report the errors against it");
   add_file("--svg", arguments->svg, "OUT.svg", "draw the trajectory over the map");
   command.add_flag("--no-deskew{false}", arguments->input.deskew,

@@ -89,6 +89,13 @@ nlohmann::ordered_json to_json(const ReplayReport& report) {
   object["pairs_dropped"] = counters.pairs_dropped;
   object["clock_steps"] = stream.clock_steps;
   object["restarts"] = stream.restarts;
+  if (const platform::OdometryStatus& odometry = result.odometry; odometry.counters.frames != 0) {
+    object["odometry"] = {
+        {"frames", odometry.counters.frames},           {"samples", odometry.counters.samples},
+        {"invalid", odometry.counters.invalid},         {"jumps", odometry.counters.jumps},
+        {"silent", odometry.counters.silent},           {"times_left_out", odometry.counters.times_left_out},
+        {"speed_believed", odometry.is_speed_believed}, {"yaw_rate_believed", odometry.is_yaw_rate_believed}};
+  }
   object["can_frames"] = {{"dropped", result.frames_dropped}, {"saturated", result.poses_saturated}};
   object["points_mean"] = result.tally.points_mean();
   object["iterations_mean"] = result.tally.iterations_mean();
@@ -145,6 +152,16 @@ std::string to_text(const ReplayReport& report) {
        {result.poses_saturated, "poses beyond what their CAN frames can say"}}};
   for (const auto& [lost, what] : losses) {
     if (lost != 0) text += fmt::format("dropped      {} {}\n", lost, what);
+  }
+  if (const platform::OdometryStatus& odometry = result.odometry; odometry.counters.frames != 0) {
+    const auto verdict = [](bool is_believed) { return is_believed ? "believed" : "left out"; };
+    text += fmt::format(
+        "odometry     {} frames, {} samples; {} values invalid, {} jumps, silent during {} sweeps, left out "
+        "{} times\n"
+        "             at the end the speed is {}, the yaw rate {}\n",
+        odometry.counters.frames, odometry.counters.samples, odometry.counters.invalid,
+        odometry.counters.jumps, odometry.counters.silent, odometry.counters.times_left_out,
+        verdict(odometry.is_speed_believed), verdict(odometry.is_yaw_rate_believed));
   }
   text += "time a sweep [ms]    p50      p99      max\n";
   for (const StageTimes& stage : stage_times(report.result)) {

@@ -15,7 +15,8 @@ std::vector<ndt::StampedPose> ReplayResult::trajectory() const {
 }
 
 ReplayResult run_replay(platform::PacketSource& source, platform::Pipeline& pipeline,
-                        const std::function<void(const platform::SweepResult&)>& on_sweep) {
+                        const std::function<void(const platform::SweepResult&)>& on_sweep,
+                        platform::FrameSource* odometry) {
   ReplayResult result;
   platform::UdpPacket packet;
   platform::ReadStatus status = platform::ReadStatus::packet;
@@ -26,6 +27,7 @@ ReplayResult run_replay(platform::PacketSource& source, platform::Pipeline& pipe
     platform::HeapCounter::arm();
     if (!has_read) status = source.next(packet);
     const bool is_packet = status == platform::ReadStatus::packet;
+    if (is_packet && odometry != nullptr) pipeline.add_odometry(*odometry, packet.receive_utc_ns);
     auto sweep = is_packet ? pipeline.predict_missing(packet.receive_utc_ns) : pipeline.finish();
     has_read = is_packet && sweep.has_value();
     if (is_packet && !has_read) sweep = pipeline.process(packet);
@@ -41,6 +43,7 @@ ReplayResult run_replay(platform::PacketSource& source, platform::Pipeline& pipe
   result.truncated = status == platform::ReadStatus::truncated;
   result.pipeline = pipeline.counters();
   result.stream = pipeline.stream_counters();
+  result.odometry = pipeline.odometry().status();
   result.frames_dropped = pipeline.publish_counters().frames_dropped;
   result.poses_saturated = pipeline.publish_counters().poses_saturated;
   for (std::size_t i = 0; i < platform::kStageCount; ++i) {

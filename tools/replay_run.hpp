@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ndt/pose.hpp"
+#include "platform/can_frame.hpp"
 #include "platform/pcap_source.hpp"
 #include "platform/pipeline.hpp"
 #include "tools/replay_tally.hpp"
@@ -18,6 +19,7 @@ struct ReplayResult {
   ReplayTally tally;                          ///< of all of them, also where they are not kept
   platform::PipelineCounters pipeline;
   drivers::StreamCounters stream;
+  platform::OdometryStatus odometry;
   std::uint64_t frames_dropped = 0;                   ///< that the bus did not take
   std::uint64_t poses_saturated = 0;                  ///< with a value beyond its signal's range
   std::vector<platform::LatencyHistogram> durations;  ///< by Stage
@@ -41,8 +43,10 @@ struct ReplayResult {
   }
 };
 
-/// Feeds all of `source` to the pipeline. `on_sweep` is called after each sweep, for progress.
+/// Feeds all of `source` to the pipeline, and before each packet the frames of `odometry` that came earlier.
+/// `on_sweep` is called after each sweep, for progress.
 [[nodiscard]] ReplayResult run_replay(platform::PacketSource& source, platform::Pipeline& pipeline,
-                                      const std::function<void(const platform::SweepResult&)>& on_sweep);
+                                      const std::function<void(const platform::SweepResult&)>& on_sweep,
+                                      platform::FrameSource* odometry = nullptr);
 
 }  // namespace landfix::tools

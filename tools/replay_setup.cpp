@@ -48,7 +48,8 @@ namespace {
       .filter = configuration.filter,
       .deskew = input.deskew,
       .initial_pose = *initial_pose,
-      .publish = {.can_base_id = configuration.can.base_id, .can_fd = configuration.can.fd}};
+      .publish = {.can_base_id = configuration.can.base_id, .can_fd = configuration.can.fd},
+      .odometry = configuration.odometry};
   settings.localizer.matcher.max_iterations = configuration.matcher.max_iterations;
   return settings;
 }

@@ -35,6 +35,18 @@ rate_hz = 10.0
 fd = false
 [metrics]
 address = "127.0.0.1:9464"
+[odometry]
+track_m = 1.6
+[[odometry.signal]]
+role = "speed"
+id = 0x1A0
+start = 6
+length = 15
+order = "motorola"
+scale = 0.01
+unit = "km/h"
+invalid_raw = [0x7FFF]
+timeout_s = 0.2
 )";
   try {
     (void)landfix::platform::parse_configuration(landfix::test::fuzzed_text(sound, std::span(data, size)),

@@ -25,6 +25,7 @@
 #include "platform/pcap_source.hpp"
 #include "platform/pose_frames.hpp"
 #include "platform/trajectory.hpp"
+#include "support/interrupted_source.hpp"
 #include "support/run_landfix.hpp"
 #include "support/test_data.hpp"
 #include "tools/replay_run.hpp"
@@ -312,37 +313,12 @@ TEST_F(SimulatedDrive, PacketsThatComeTwiceOrInTheWrongOrderDoNotLoseTheTrack) {
   }
 }
 
-/// A capture in which nothing comes for a while.
-class InterruptedSource final : public platform::PacketSource {
- public:
-  InterruptedSource(const std::string& path, double silent_from_s, double silent_for_s)
-      : source_(path), from_ns_(to_ns(silent_from_s)), until_ns_(to_ns(silent_from_s + silent_for_s)) {}
-
-  [[nodiscard]] platform::ReadStatus next(platform::UdpPacket& packet) noexcept override {
-    for (;;) {
-      const platform::ReadStatus status = source_.next(packet);
-      if (status != platform::ReadStatus::packet) return status;
-      if (first_utc_ns_ == 0) first_utc_ns_ = packet.receive_utc_ns;
-      const std::int64_t since_ns = packet.receive_utc_ns - first_utc_ns_;
-      if (since_ns < from_ns_ || since_ns >= until_ns_) return status;
-    }
-  }
-
- private:
-  [[nodiscard]] static std::int64_t to_ns(double s) { return static_cast<std::int64_t>(s * 1e9); }
-
-  platform::PcapSource source_;
-  std::int64_t from_ns_;
-  std::int64_t until_ns_;
-  std::int64_t first_utc_ns_ = 0;
-};
-
 /// What was published around a silence of that long.
 [[nodiscard]] ReplayResult replay_with_silence(const std::string& directory, double silent_for_s) {
   const ReplaySetup setup = prepare_replay({.config = directory + "config.toml"});
   platform::CandumpLog bus(fmt::format("{}silence{}.log", directory, silent_for_s), "can0");
   platform::Pipeline pipeline(setup.settings, setup.decoder, setup.map(), &bus);
-  InterruptedSource source(directory + "capture.pcap", 5.03, silent_for_s);
+  test::InterruptedSource source(directory + "capture.pcap", 5.03, silent_for_s);
   ReplayResult result = run_replay(source, pipeline, [](const platform::SweepResult&) {});
   bus.commit();
   EXPECT_EQ(pipeline.publish_counters().frames_dropped, 0U);

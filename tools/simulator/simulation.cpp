@@ -15,6 +15,7 @@
 #include "platform/pcap_writer.hpp"
 #include "platform/pcd_writer.hpp"
 #include "platform/trajectory.hpp"
+#include "tools/simulator/odometry_log.hpp"
 #include "tools/simulator/random.hpp"
 #include "tools/simulator/survey.hpp"
 
@@ -144,13 +145,13 @@ void write_config(const Drive& drive, const std::filesystem::path& path) {
       "[map]\nfile = \"map.ndt\"\n\n"
       "# Where the vehicle stands when the capture begins.\n"
       "[initial_pose]\npose = [{:.3f}, {:.3f}, {:.3f}, {:.3f}, {:.3f}, {:.3f}]\n\n"
-      "[filter]\nleaf_m = {:.1f}\n\n[matcher]\nresolution_m = {:.1f}\nmax_iterations = 50\n",
+      "[filter]\nleaf_m = {:.1f}\n\n[matcher]\nresolution_m = {:.1f}\nmax_iterations = 50\n\n{}",
       drive.route().name, drive.seed(), lidar.name, lidar.data_port,
       calibration ? fmt::format("calibration = \"{}\"\n", calibration->name) : "", mounting.position_m.x(),
       mounting.position_m.y(), mounting.position_m.z(), mounting.roll_deg, mounting.pitch_deg,
       mounting.yaw_deg, start.translation().x(), start.translation().y(), start.translation().z(),
       angles.roll_rad / ndt::kRadians_per_deg, angles.pitch_rad / ndt::kRadians_per_deg,
-      angles.yaw_rad / ndt::kRadians_per_deg, kLeaf_m, kResolution_m));
+      angles.yaw_rad / ndt::kRadians_per_deg, kLeaf_m, kResolution_m, odometry_section()));
   file.commit();
 }
 
@@ -162,6 +163,7 @@ SimulationSummary write_drive(const Drive& drive, const std::filesystem::path& f
   SimulationSummary summary{.length_m = drive.route().length_m(), .duration_s = drive.vehicle().duration_s()};
   write_capture(drive, folder / "capture.pcap", progress, summary);
   write_truth(drive, folder / "truth.tum");
+  write_odometry_log(drive, folder / "odometry.log");
   summary.map_points = write_map(drive, folder / "map.pcd");
   write_config(drive, folder / "config.toml");
   if (const auto calibration = drive.lidar().calibration()) {
