@@ -48,7 +48,7 @@ TEST(PacketRate, TheRingHoldsAQuarterSecondOfEverySensor) {
     EXPECT_GE(platform::largest_packet_bytes(sensor), 1000U) << sensor.name;
     EXPECT_GE(platform::receive_buffer_bytes(sensor), 4 * kMib) << sensor.name;
     // VLS-128 takes the most, for two sweeps of 1.5 turns at 5 Hz with both returns.
-    EXPECT_LE(platform::budget_of({}, sensor, 0).memory_bytes(), 96 * kMib) << sensor.name;
+    EXPECT_LE(platform::budget_of({}, sensor, 0).memory_bytes(), 64 * kMib) << sensor.name;
   }
 }
 
