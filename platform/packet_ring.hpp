@@ -43,18 +43,20 @@ class PacketRing {
   }
   void publish(std::size_t count) noexcept { indices_.publish(count); }
 
-  // For the consumer: the oldest packet, if waiting() says that there is one, until it is freed.
+  // For the consumer: the i-th oldest packet, for i below waiting(), until it is freed.
   [[nodiscard]] std::size_t waiting(std::size_t wanted) noexcept { return indices_.readable(wanted); }
-  [[nodiscard]] const PacketHeader& header() const noexcept { return headers_[indices_.read_slot(0)]; }
-  [[nodiscard]] UdpPacket front() const noexcept {
-    const PacketHeader& known = header();
-    return {.payload = bytes_of(indices_.read_slot(0)).first(known.size),
+  [[nodiscard]] const PacketHeader& header(std::size_t i = 0) const noexcept {
+    return headers_[indices_.read_slot(i)];
+  }
+  [[nodiscard]] UdpPacket front(std::size_t i = 0) const noexcept {
+    const PacketHeader& known = header(i);
+    return {.payload = bytes_of(indices_.read_slot(i)).first(known.size),
             .receive_utc_ns = known.receive_utc_ns,
             .source_address = known.source_address,
             .source_port = known.source_port,
             .destination_port = known.destination_port};
   }
-  void free() noexcept { indices_.free(1); }
+  void free(std::size_t count = 1) noexcept { indices_.free(count); }
 
  private:
   [[nodiscard]] std::span<std::byte> bytes_of(std::size_t slot) const noexcept {

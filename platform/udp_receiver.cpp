@@ -78,7 +78,7 @@ std::size_t UdpReceiver::receive(Port& port, PacketRing& ring, bool& has_failed)
 }
 
 UdpReceiver::Read UdpReceiver::read(CountedSocket& from, std::size_t count) noexcept {
-  const int received = batch_.receive(from.socket.descriptor(), count);
+  const int received = batch_.receive(from.socket.number(), count);
   if (received < 0) {
     if (errno == EAGAIN) return {};
     ++counters_.errors;
@@ -139,8 +139,7 @@ void UdpReceiver::join_if_silent() noexcept {
   if (now_mono_ns - heard_or_joined_mono_ns_ < kSilence_ns) return;
   heard_or_joined_mono_ns_ = now_mono_ns;
   for (const Port& port : ports_) {
-    if (!join_group(port.sensor.socket.descriptor(), multicast_group_, interface_address_))
-      ++counters_.errors;
+    if (!join_group(port.sensor.socket.number(), multicast_group_, interface_address_)) ++counters_.errors;
   }
 }
 

@@ -15,15 +15,16 @@
 #include <poll.h>
 
 #include "platform/arrival_clock.hpp"
+#include "platform/file_descriptor.hpp"
 #include "platform/packet_receiver.hpp"
+#include "platform/udp_batch.hpp"
 #include "platform/udp_settings.hpp"
-#include "platform/udp_socket.hpp"
 
 namespace landfix::platform {
 
 /// A socket, and what it has lost.
 struct CountedSocket {
-  UdpSocket socket;
+  FileDescriptor socket;
   std::uint64_t drops = 0;       ///< full or filtered, as of the last datagram that was read
   std::uint64_t broadcasts = 0;  ///< datagrams read that went to every socket of the port
   std::uint64_t overflowed = 0;  ///< drops that are known to be for want of room

@@ -45,6 +45,9 @@ TEST(Configuration, TheExampleSaysTheDefaults) {
   EXPECT_EQ(example.sensor.calibration, defaults.sensor.calibration);
   EXPECT_EQ(example.sensor.address, defaults.sensor.address);
   EXPECT_EQ(example.sensor.port, defaults.sensor.port);
+  EXPECT_EQ(example.sensor.multicast, defaults.sensor.multicast);
+  EXPECT_EQ(example.sensor.interface, defaults.sensor.interface);
+  EXPECT_EQ(example.sensor.receive_buffer_mib, defaults.sensor.receive_buffer_mib);
   EXPECT_EQ(example.sensor.cut_deg, defaults.sensor.cut_deg);
   EXPECT_EQ(example.sensor.min_range_m, defaults.sensor.min_range_m);
   EXPECT_EQ(example.sensor.max_range_m, defaults.sensor.max_range_m);
@@ -96,6 +99,9 @@ TEST(Configuration, EveryKeyIsRead) {
 model = "pandar64"
 calibration = "unit.csv"
 address = "192.168.1.201"
+multicast = "239.255.0.1"
+interface = "192.168.1.100"
+receive_buffer_mib = 32.0
 port = 2400
 cut_deg = 180
 min_range_m = 1.5
@@ -134,6 +140,9 @@ address = "unix:/run/landfix/metrics"
   EXPECT_EQ(read.sensor.model, "pandar64");
   EXPECT_EQ(read.sensor.calibration, "/etc/landfix/unit.csv");
   EXPECT_EQ(read.sensor.address, "192.168.1.201");
+  EXPECT_EQ(read.sensor.multicast, "239.255.0.1");
+  EXPECT_EQ(read.sensor.interface, "192.168.1.100");
+  EXPECT_EQ(read.sensor.receive_buffer_mib, 32.0);
   EXPECT_EQ(read.sensor.port, 2400);
   EXPECT_EQ(read.sensor.cut_deg, 180.0);
   EXPECT_EQ(read.sensor.min_range_m, 1.5);
@@ -186,6 +195,9 @@ TEST(Configuration, BadValuesAreRefused) {
       {"sensor", "port = 1.5"},
       {"sensor", "address = \"1.2.3\""},
       {"sensor", "address = \"1.2.3.4 \""},
+      {"sensor", "multicast = \"192.168.1.201\""},
+      {"sensor", "interface = \"eth0\""},
+      {"sensor", "receive_buffer_mib = 0.1"},
       {"sensor", "cut_deg = 360"},
       {"sensor", "cut_deg = nan"},
       {"sensor", "max_range_m = inf"},

@@ -1,37 +1,15 @@
-// A UDP socket, and what many calls of recvmmsg need, allocated once.
+// Datagrams from a socket, many with one system call, and what the kernel says of each.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 
 #include <netinet/in.h>
 #include <sys/socket.h>
 
 namespace landfix::platform {
-
-/// Owns a descriptor.
-class UdpSocket {
- public:
-  UdpSocket() = default;
-  explicit UdpSocket(int descriptor) noexcept : descriptor_(descriptor) {}
-  UdpSocket(UdpSocket&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-  UdpSocket& operator=(UdpSocket&& other) noexcept {
-    std::swap(descriptor_, other.descriptor_);
-    return *this;
-  }
-  UdpSocket(const UdpSocket&) = delete;
-  UdpSocket& operator=(const UdpSocket&) = delete;
-  ~UdpSocket();
-
-  [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
-  [[nodiscard]] bool is_open() const noexcept { return descriptor_ >= 0; }
-
- private:
-  int descriptor_ = -1;
-};
 
 /// What the kernel says of one datagram.
 struct Datagram {

@@ -1,9 +1,7 @@
-#include "platform/udp_socket.hpp"
+#include "platform/udp_batch.hpp"
 
 #include <cstring>
 #include <ctime>
-
-#include <unistd.h>
 
 namespace landfix::platform {
 namespace {
@@ -30,10 +28,6 @@ void read_control(const cmsghdr& control, Datagram& datagram) noexcept {
 }
 
 }  // namespace
-
-UdpSocket::~UdpSocket() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
 
 int UdpBatch::receive(int descriptor, std::size_t count) noexcept {
   for (std::size_t i = 0; i < count; ++i) {  // all of which the kernel overwrites
