@@ -39,7 +39,7 @@ const Golden kGolden[] = {
     {"MGRS south",
      "projector_type: MGRS\nmgrs_grid: 33HUC\n",
      {34900.5, 52300.25, -3},
-     {-33.85669634561, 13.21530139392, -3.0},
+     {-33.85669634561, 13.21530140392, -3.0},
      33},
     {"UTM",
      "projector_type: LocalCartesianUTM\n" + kOrigin,

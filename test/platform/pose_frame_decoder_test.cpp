@@ -271,7 +271,7 @@ TEST(PoseFrameDecoder, LeavesFramesOfOthersAlone) {
   CanFrame extended = ours;
   extended.extended = true;
   CanFrame elsewhere = ours;
-  elsewhere.id = kBaseId + 6;
+  elsewhere.id = kBaseId + 10;
   for (const CanFrame& frame : {extended, elsewhere}) {
     const DecodedFrame decoded = PoseFrameDecoder(kBaseId).decode(frame, kStart_ns);
     EXPECT_EQ(decoded.layout, nullptr);
