@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace landfix;
   static const std::string sound =
       "VERSION \"\"\nBO_ 170 WHEELS: 8 X\n SG_ FR M : 6|15@0+ (0.01,-67.67) [0|250] \"kph\" X\n"
-      "CM_ SG_ 170 FR \"wheel\";\nBO_ 2566834709 FAR: 64 X\n SG_ YAW m2 : 8|12@1- (-1.4e-3,2) [-3|3] \"\" "
+      "CM_ SG_ 170 FR \"wheel\";\nBO_ 2566844885 FAR: 64 X\n SG_ YAW m2 : 8|12@1- (-1.4e-3,2) [-3|3] \"\" "
       "A,B\n";
   try {
     for (const auto& message :

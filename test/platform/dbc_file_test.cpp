@@ -21,7 +21,7 @@ TEST(DbcFile, ReadsMessagesAndSignals) {
       "VERSION \"\"\r\n\r\nBU_: ESP\r\n"
       "BO_ 170 WHEEL_SPEEDS: 8 ESP\r\n"
       " SG_ WHEEL_FR : 6|15@0+ (0.01,-67.67) [0|250] \"kph\" XXX\r\n"
-      "BO_ 2566834709 FAR: 64 ESP\n"
+      "BO_ 2566844885 FAR: 64 ESP\n"
       " SG_ KIND M : 0|4@1+ (1,0) [0|15] \"\" XXX\n"
       " SG_ YAW m2 : 8|12@1- (-0.0014,+2.86) [-3|3] \"rad/s\" A,B\n"
       "CM_ BO_ 170 \"a comment with\n"
