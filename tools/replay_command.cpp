@@ -10,6 +10,7 @@
 #include "platform/atomic_file.hpp"
 #include "platform/candump_log.hpp"
 #include "platform/evaluation.hpp"
+#include "platform/hgrm.hpp"
 #include "platform/pcap_source.hpp"
 #include "platform/pipeline.hpp"
 #include "platform/trajectory.hpp"
@@ -33,6 +34,7 @@ struct Arguments {
   std::string candump;
   std::string truth;
   std::string svg;
+  std::string latency;
   bool json = false;
 };
 
@@ -49,6 +51,21 @@ void write_svg(const Arguments& arguments, const ndt::VoxelMap& map,
   platform::AtomicFile file(arguments.svg);
   file.write(trajectory_svg(voxel_means(map), trajectory, truth));
   file.commit();
+}
+
+/// What counts in the end by the name that was asked for, the stages that lead there beside it.
+void write_latencies(const std::filesystem::path& path, const ReplayResult& result) {
+  const platform::Stage whole = result.duration(platform::Stage::total).count() != 0
+                                    ? platform::Stage::total
+                                    : platform::Stage::last_packet;
+  for (std::size_t i = 0; i < platform::kStageCount; ++i) {
+    const auto stage = static_cast<platform::Stage>(i);
+    const platform::LatencyHistogram& durations = result.duration(stage);
+    if (durations.count() == 0 && stage != whole) continue;  // not of this kind of replay
+    platform::AtomicFile file(stage == whole ? path : platform::hgrm_of_stage(path, to_string(stage)));
+    file.write(to_hgrm(platform::distribution_of(durations, to_string(stage))));
+    file.commit();
+  }
 }
 
 void warn_of_window(const platform::MapWindowCounters& counters) {
@@ -96,6 +113,7 @@ void replay(const Arguments& arguments) {
   if (!arguments.trajectory.empty()) platform::write_tum(arguments.trajectory, trajectory);
   if (bus) bus->commit();
   if (!arguments.svg.empty()) write_svg(arguments, map, trajectory, truth);
+  if (!arguments.latency.empty()) write_latencies(arguments.latency, result);
   ReplayReport report{.result = result, .evaluation = {}, .covariances = {}};
   if (!arguments.truth.empty() && !trajectory.empty()) {
     report.evaluation = platform::evaluate(truth, trajectory);
@@ -125,6 +143,8 @@ void add_replay_command(CLI::App& app) {
   add_file("--candump", arguments->candump, "OUT.log", "write the CAN frames, as candump -l does");
   add_file("--truth", arguments->truth, "TRUTH.tum", "true trajectory: report the errors against it");
   add_file("--svg", arguments->svg, "OUT.svg", "draw the trajectory over the map");
+  add_file("--latency", arguments->latency, "OUT.hgrm",
+           "write the latencies for HdrHistogram's plotters, and of each stage OUT.STAGE.hgrm");
   command.add_flag("--no-deskew{false}", arguments->input.deskew,
                    "leave the sweep's motion distortion in, to see what it costs");
   add_json_option(command, arguments->json);
