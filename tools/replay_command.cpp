@@ -16,7 +16,9 @@
 #include "platform/trajectory.hpp"
 #include "tools/capture_losses.hpp"
 #include "tools/command.hpp"
+#include "tools/command_line.hpp"
 #include "tools/evaluation_report.hpp"
+#include "tools/html_report.hpp"
 #include "tools/input_files.hpp"
 #include "tools/landfix_commands.hpp"
 #include "tools/replay_report.hpp"
@@ -35,6 +37,8 @@ struct Arguments {
   std::string truth;
   std::string svg;
   std::string latency;
+  std::string report;
+  std::string command;  ///< as it was given
   bool json = false;
 };
 
@@ -50,6 +54,23 @@ void write_svg(const Arguments& arguments, const ndt::VoxelMap& map,
                const std::vector<ndt::StampedPose>& trajectory, const std::vector<ndt::StampedPose>& truth) {
   platform::AtomicFile file(arguments.svg);
   file.write(trajectory_svg(voxel_means(map), trajectory, truth));
+  file.commit();
+}
+
+void write_html(const Arguments& arguments, const ReplaySetup& setup, const ReplayReport& replay,
+                const std::filesystem::path& capture, const std::vector<ndt::StampedPose>& truth) {
+  const auto means_m = voxel_means(setup.map());
+  const HtmlReport report{
+      .replay = replay,
+      .truth = truth,
+      .map_points_m = means_m,
+      .sensor = std::string(setup.model.name),
+      .capture = capture.string(),
+      .map = (arguments.input.map.empty() ? setup.configuration.map.file : arguments.input.map).string(),
+      .command = arguments.command,
+      .version = LANDFIX_VERSION};
+  platform::AtomicFile file(arguments.report);
+  file.write(to_html(report));
   file.commit();
 }
 
@@ -119,6 +140,7 @@ void replay(const Arguments& arguments) {
     report.evaluation = platform::evaluate(truth, trajectory);
     report.covariances = check_covariances(result.sweeps, truth);
   }
+  if (!arguments.report.empty()) write_html(arguments, setup, report, capture, truth);
   fmt::print("{}", arguments.json ? to_json(report).dump(2) + "\n" : to_text(report));
 }
 
@@ -143,12 +165,16 @@ void add_replay_command(CLI::App& app) {
   add_file("--candump", arguments->candump, "OUT.log", "write the CAN frames, as candump -l does");
   add_file("--truth", arguments->truth, "TRUTH.tum", "true trajectory: report the errors against it");
   add_file("--svg", arguments->svg, "OUT.svg", "draw the trajectory over the map");
+  add_file("--report", arguments->report, "OUT.html", "write all of it as one page for a browser");
   add_file("--latency", arguments->latency, "OUT.hgrm",
            "write the latencies for HdrHistogram's plotters, and of each stage OUT.STAGE.hgrm");
   command.add_flag("--no-deskew{false}", arguments->input.deskew,
                    "leave the sweep's motion distortion in, to see what it costs");
   add_json_option(command, arguments->json);
-  command.callback([arguments] { replay(*arguments); });
+  command.callback([arguments, &command] {
+    arguments->command = command_line(command);
+    replay(*arguments);
+  });
 }
 
 }  // namespace landfix::tools
