@@ -24,6 +24,7 @@
 #include "tools/replay_report.hpp"
 #include "tools/replay_run.hpp"
 #include "tools/replay_setup.hpp"
+#include "tools/trace_writer.hpp"
 #include "tools/trajectory_svg.hpp"
 
 namespace landfix::tools {
@@ -38,6 +39,7 @@ struct Arguments {
   std::string svg;
   std::string latency;
   std::string report;
+  std::string trace;
   std::string command;  ///< as it was given
   bool json = false;
 };
@@ -112,10 +114,14 @@ void replay(const Arguments& arguments) {
   const std::filesystem::path capture = arguments.pcap.empty()
                                             ? arguments.input.config.parent_path() / "capture.pcap"
                                             : std::filesystem::path(arguments.pcap);
+  std::optional<TraceWriter> trace;
+  if (!arguments.trace.empty()) trace.emplace(arguments.trace);
   platform::PcapSource source(capture);
   platform::Pipeline pipeline(setup.settings, setup.decoder, map, bus ? &*bus : nullptr, setup.window.get());
 
   const ReplayResult result = run_replay(source, pipeline, [&](const platform::SweepResult& sweep) {
+    if (trace)
+      trace->add(platform::SolvedSweep{.result = sweep, .arrived_mono_ns = sweep.times.last_packet_ns});
     if (setup.window) (void)setup.window->load();  // here, so that two replays are the same
     show_progress(fmt::format("{:3.0f} %  {}", source.percent_read(), ndt::to_string(sweep.fix.state)));
   });
@@ -133,6 +139,7 @@ void replay(const Arguments& arguments) {
   const auto trajectory = result.trajectory();
   if (!arguments.trajectory.empty()) platform::write_tum(arguments.trajectory, trajectory);
   if (bus) bus->commit();
+  if (trace) trace->commit();
   if (!arguments.svg.empty()) write_svg(arguments, map, trajectory, truth);
   if (!arguments.latency.empty()) write_latencies(arguments.latency, result);
   ReplayReport report{.result = result, .evaluation = {}, .covariances = {}};
@@ -166,6 +173,7 @@ void add_replay_command(CLI::App& app) {
   add_file("--truth", arguments->truth, "TRUTH.tum", "true trajectory: report the errors against it");
   add_file("--svg", arguments->svg, "OUT.svg", "draw the trajectory over the map");
   add_file("--report", arguments->report, "OUT.html", "write all of it as one page for a browser");
+  add_file("--trace", arguments->trace, "OUT.json", "write what was done when, for ui.perfetto.dev");
   add_file("--latency", arguments->latency, "OUT.hgrm",
            "write the latencies for HdrHistogram's plotters, and of each stage OUT.STAGE.hgrm");
   command.add_flag("--no-deskew{false}", arguments->input.deskew,
