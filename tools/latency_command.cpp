@@ -1,4 +1,6 @@
 // landfix latency: stage by stage, against a budget.
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -10,6 +12,7 @@
 #include "platform/hgrm.hpp"
 #include "platform/stage.hpp"
 #include "tools/command.hpp"
+#include "tools/daemon_status.hpp"
 #include "tools/landfix_commands.hpp"
 #include "tools/latency_table.hpp"
 
@@ -18,6 +21,8 @@ namespace {
 
 struct Arguments {
   std::vector<std::string> files;
+  bool live = false;
+  DaemonAddress daemon;
   std::string budget;
   bool json = false;
 };
@@ -34,8 +39,27 @@ void read_file_and_stages(const std::filesystem::path& path, std::vector<StageLa
   if (stages.back().stage.empty()) stages.back().stage = path.stem().string();
 }
 
+/// Of the running daemon, since its start.
+void read_live(const DaemonAddress& daemon, std::vector<StageLatency>& stages) {
+  const nlohmann::json status = daemon_status(daemon);
+  for (const auto& [name, stage] : status.at("stage_ms").items()) {
+    StageLatency latency{.stage = name, .count = stage.at("count"), .values_ms = {}};
+    for (std::size_t i = 0; i < kLatencyKeys.size(); ++i) {
+      latency.values_ms[i] = stage.at(std::string(kLatencyKeys[i]));
+    }
+    stages.push_back(latency);
+  }
+  std::ranges::sort(stages, {}, [](const StageLatency& latency) {  // as a pose goes through them
+    return std::ranges::find(platform::kStageNames, latency.stage) - platform::kStageNames.begin();
+  });
+}
+
 void latency(const Arguments& arguments) {
+  if (arguments.files.empty() != arguments.live) {
+    throw UsageError("either .hgrm files, or --live of the running daemon");
+  }
   std::vector<StageLatency> stages;
+  if (arguments.live) read_live(arguments.daemon, stages);
   for (const std::string& file : arguments.files) read_file_and_stages(file, stages);
   const LatencyBudget budget = arguments.budget.empty() ? default_budget() : read_budget(arguments.budget);
   fmt::print("{}", arguments.json ? to_json(stages, budget).dump(2) + "\n" : to_table(stages, budget));
@@ -49,8 +73,9 @@ void add_latency_command(CLI::App& app) {
   command
       .add_option("FILE", arguments->files,
                   ".hgrm of landfix replay --latency, with the stages beside it; or of another program")
-      ->required()
       ->type_name("");
+  command.add_flag("--live", arguments->live, "of the running daemon, since its start");
+  add_daemon_options(command, arguments->daemon);
   command
       .add_option(
           "--budget", arguments->budget,
