@@ -38,6 +38,19 @@ class LatencyHistogram {
   /// are none. `percent` within [0, 100].
   [[nodiscard]] std::int64_t percentile_ns(double percent) const noexcept;
 
+  /// Calls `visit(largest value that shares it, values)` for every counter that counts some, in rising order.
+  template <class Visit>
+  void visit_counters(Visit visit) const {
+    for (std::size_t i = 0; i < kCounters; ++i) {
+      const std::uint64_t values = counts_[i];
+      if (values != 0) visit(highest(i), values);
+    }
+  }
+
+  // HdrHistogram's own names of its size.
+  static constexpr unsigned kBuckets = 29;
+  static constexpr unsigned kSubBucketCount = 256;
+
  private:
   static constexpr unsigned kSubBucketBits = 7;
   static constexpr std::size_t kSubBuckets = std::size_t{1} << kSubBucketBits;
@@ -56,6 +69,8 @@ class LatencyHistogram {
     const std::size_t dropped = index / kSubBuckets - 1;
     return static_cast<std::int64_t>((((index % kSubBuckets + kSubBuckets) + 1) << dropped) - 1);
   }
+
+  static_assert(kBuckets == kValueBits - kSubBucketBits && kSubBucketCount == 2 * kSubBuckets);
 
   std::array<RelaxedCounter, kCounters> counts_{};
   RelaxedCounter count_;

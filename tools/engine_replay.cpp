@@ -41,7 +41,7 @@ void take_counts(platform::RunningEngine& engine, const platform::ReceiveCounter
 }  // namespace
 
 ReplayResult run_engine(platform::RunningEngine& engine, const platform::ReceiveCounters& received,
-                        bool keep_sweeps, const std::function<void(const platform::SolvedSweep&)>& on_sweep) {
+                        bool keep_sweeps, const ReplayEvents& events) {
   constexpr std::int64_t kTurn_ns = 1'000'000;
   ReplayResult result;
   for (bool has_ended = false; !has_ended;) {
@@ -49,9 +49,9 @@ ReplayResult run_engine(platform::RunningEngine& engine, const platform::Receive
     while (const auto sweep = engine.next_sweep()) {
       result.tally.add(sweep->result);
       if (keep_sweeps) result.sweeps.push_back(sweep->result);
-      on_sweep(*sweep);
+      events.on_sweep(*sweep);
     }
-    while (engine.next_sent()) continue;
+    while (const auto sent = engine.next_sent()) events.on_sent(*sent);
     if (!has_ended) platform::sleep_until(platform::monotonic_ns() + kTurn_ns);
   }
   take_counts(engine, received, result);

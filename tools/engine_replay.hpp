@@ -9,10 +9,17 @@
 
 namespace landfix::tools {
 
-/// Until the packets have ended and everything is sent. `on_sweep` is called after each sweep, in this
-/// thread. `keep_sweeps`: else only their tally is kept, so that memory does not grow with the replay.
+/// Called in the thread that runs the replay.
+struct ReplayEvents {
+  std::function<void(const platform::SolvedSweep&)> on_sweep = [](const platform::SolvedSweep&) {};
+  std::function<void(const platform::SentSweep&)> on_sent = [](const platform::SentSweep&) {
+  };  ///< after its sweep
+};
+
+/// Until the packets have ended and everything is sent. `keep_sweeps`: else only their tally is kept, so that
+/// memory does not grow with the replay.
 [[nodiscard]] ReplayResult run_engine(platform::RunningEngine& engine,
                                       const platform::ReceiveCounters& received, bool keep_sweeps,
-                                      const std::function<void(const platform::SolvedSweep&)>& on_sweep);
+                                      const ReplayEvents& events = {});
 
 }  // namespace landfix::tools

@@ -13,6 +13,8 @@ constexpr std::array kTable{
     add_benchmark_command,  //
     add_replay_command,     //
     add_play_command,       //
+    add_latency_command,    //
+    add_top_command,        //
     add_can_command,        //
     add_evaluate_command,   //
     add_simulate_command,   //

@@ -14,6 +14,8 @@ void add_align_command(CLI::App& app);
 void add_benchmark_command(CLI::App& app);
 void add_replay_command(CLI::App& app);
 void add_play_command(CLI::App& app);
+void add_latency_command(CLI::App& app);
+void add_top_command(CLI::App& app);
 void add_can_command(CLI::App& app);
 void add_evaluate_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);

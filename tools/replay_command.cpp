@@ -11,6 +11,7 @@
 #include "platform/candump_log.hpp"
 #include "platform/engine.hpp"
 #include "platform/evaluation.hpp"
+#include "platform/hgrm.hpp"
 #include "platform/map_loader.hpp"
 #include "platform/pcap_receiver.hpp"
 #include "platform/pcap_source.hpp"
@@ -18,14 +19,17 @@
 #include "platform/trajectory.hpp"
 #include "tools/capture_losses.hpp"
 #include "tools/command.hpp"
+#include "tools/command_line.hpp"
 #include "tools/engine_replay.hpp"
 #include "tools/engine_setup.hpp"
 #include "tools/evaluation_report.hpp"
+#include "tools/html_report.hpp"
 #include "tools/input_files.hpp"
 #include "tools/landfix_commands.hpp"
 #include "tools/replay_report.hpp"
 #include "tools/replay_run.hpp"
 #include "tools/replay_setup.hpp"
+#include "tools/trace_writer.hpp"
 #include "tools/trajectory_svg.hpp"
 
 namespace landfix::tools {
@@ -41,6 +45,10 @@ struct Arguments {
   std::string svg;
   bool realtime = false;
   std::uint64_t laps = 1;
+  std::string latency;
+  std::string report;
+  std::string trace;
+  std::string command;  ///< as it was given
   bool json = false;
 };
 
@@ -59,6 +67,38 @@ void write_svg(const Arguments& arguments, const ndt::VoxelMap& map,
   file.commit();
 }
 
+void write_html(const Arguments& arguments, const ReplaySetup& setup, const ReplayReport& replay,
+                const std::filesystem::path& capture, const std::vector<ndt::StampedPose>& truth) {
+  const auto means_m = voxel_means(setup.map());
+  const HtmlReport report{
+      .replay = replay,
+      .truth = truth,
+      .map_points_m = means_m,
+      .sensor = std::string(setup.model.name),
+      .capture = capture.string(),
+      .map = (arguments.input.map.empty() ? setup.configuration.map.file : arguments.input.map).string(),
+      .command = arguments.command,
+      .version = LANDFIX_VERSION};
+  platform::AtomicFile file(arguments.report);
+  file.write(to_html(report));
+  file.commit();
+}
+
+/// What counts in the end by the name that was asked for, the stages that lead there beside it.
+void write_latencies(const std::filesystem::path& path, const ReplayResult& result) {
+  const platform::Stage whole = result.duration(platform::Stage::total).count() != 0
+                                    ? platform::Stage::total
+                                    : platform::Stage::last_packet;
+  for (std::size_t i = 0; i < platform::kStageCount; ++i) {
+    const auto stage = static_cast<platform::Stage>(i);
+    const platform::LatencyHistogram& durations = result.duration(stage);
+    if (durations.count() == 0 && stage != whole) continue;  // not of this kind of replay
+    platform::AtomicFile file(stage == whole ? path : platform::hgrm_of_stage(path, to_string(stage)));
+    file.write(to_hgrm(platform::distribution_of(durations, to_string(stage))));
+    file.commit();
+  }
+}
+
 void warn_of_window(const platform::MapWindowCounters& counters) {
   if (counters.tiles_not_fitting != 0) {
     fmt::print(
@@ -72,45 +112,61 @@ void warn_of_window(const platform::MapWindowCounters& counters) {
   }
 }
 
+/// What a replay is connected to.
+struct Seams {
+  platform::FrameSink* bus;
+  platform::FrameSource& odometry;
+  TraceWriter* trace;
+};
+
 [[nodiscard]] bool uses_threads(const Arguments& arguments) {
   return arguments.realtime || arguments.laps > 1;
 }
 
 /// In this thread, packet after packet: as fast as can be, and the same whenever it is done again.
 [[nodiscard]] ReplayResult replay_at_once(const ReplaySetup& setup, const std::filesystem::path& capture,
-                                          platform::FrameSink* bus, platform::FrameSource& odometry) {
+                                          const Seams& seams) {
   platform::PcapSource source(capture);
-  platform::Pipeline pipeline(setup.settings, setup.decoder, setup.map(), bus, setup.window.get());
+  platform::Pipeline pipeline(setup.settings, setup.decoder, setup.map(), seams.bus, setup.window.get());
   ReplayResult result = run_replay(
       source, pipeline,
       [&](const platform::SweepResult& sweep) {
+        if (seams.trace != nullptr)
+          seams.trace->add({.result = sweep, .arrived_mono_ns = sweep.times.last_packet_ns});
         if (setup.window) (void)setup.window->load();  // here, so that two replays are the same
         show_progress(fmt::format("{:3.0f} %  {}", source.percent_read(), ndt::to_string(sweep.fix.state)));
       },
-      &odometry);
+      &seams.odometry);
   warn_of_losses(capture.string(), source.counters());
   return result;
 }
 
 /// In the threads of the vehicle. Where the laps are many, their results are counted, not kept.
 [[nodiscard]] ReplayResult replay_in_threads(const Arguments& arguments, const ReplaySetup& setup,
-                                             const std::filesystem::path& capture, platform::FrameSink* bus,
-                                             platform::FrameSource& odometry) {
+                                             const std::filesystem::path& capture, const Seams& seams) {
   const auto mode =
       arguments.realtime ? platform::EngineMode::paced_replay : platform::EngineMode::fast_replay;
   platform::PcapReceiver receiver(
       pcap_settings(setup, capture, arguments.realtime ? 1.0 : 0.0, arguments.laps));
   const bool keep_sweeps = arguments.laps == 1 || !arguments.trajectory.empty() || !arguments.truth.empty() ||
-                           !arguments.svg.empty();
+                           !arguments.svg.empty() || !arguments.report.empty();
   platform::RunningEngine engine(platform::Engine(engine_settings(setup, mode), setup.decoder, setup.map(),
-                                                  setup.window.get(), receiver, bus, &odometry));
+                                                  setup.window.get(), receiver, seams.bus, &seams.odometry));
   for (const std::string& missing : engine.missing()) fmt::print(stderr, "landfix: {}\n", missing);
   std::optional<platform::MapLoader> loader;  // after the memory was locked: its stack need not be
   if (setup.window) loader.emplace(*setup.window);
   std::size_t sweeps = 0;
-  return run_engine(engine, receiver.counters(), keep_sweeps, [&](const platform::SolvedSweep& sweep) {
-    show_progress(fmt::format("sweep {}  {}", ++sweeps, ndt::to_string(sweep.result.fix.state)));
-  });
+  return run_engine(
+      engine, receiver.counters(), keep_sweeps,
+      {.on_sweep =
+           [&](const platform::SolvedSweep& sweep) {
+             if (seams.trace != nullptr) seams.trace->add(sweep);
+             show_progress(fmt::format("sweep {}  {}", ++sweeps, ndt::to_string(sweep.result.fix.state)));
+           },
+       .on_sent =
+           [&](const platform::SentSweep& sent) {
+             if (seams.trace != nullptr) seams.trace->add(sent);
+           }});
 }
 
 [[nodiscard]] std::vector<platform::StampedFrame> read_odometry(const Arguments& arguments,
@@ -135,9 +191,11 @@ void replay(const Arguments& arguments) {
   platform::FrameSink* const sink = bus ? &*bus : nullptr;
   const std::vector<platform::StampedFrame> logged = read_odometry(arguments, setup);
   platform::FrameLog odometry(logged);
-  const ReplayResult result = uses_threads(arguments)
-                                  ? replay_in_threads(arguments, setup, capture, sink, odometry)
-                                  : replay_at_once(setup, capture, sink, odometry);
+  std::optional<TraceWriter> trace;
+  if (!arguments.trace.empty()) trace.emplace(arguments.trace);
+  const Seams seams{.bus = sink, .odometry = odometry, .trace = trace ? &*trace : nullptr};
+  const ReplayResult result = uses_threads(arguments) ? replay_in_threads(arguments, setup, capture, seams)
+                                                      : replay_at_once(setup, capture, seams);
   show_progress("");
   if (setup.window) warn_of_window(setup.window->counters());
   if (result.tally.came() == 0) {
@@ -151,12 +209,15 @@ void replay(const Arguments& arguments) {
   const auto trajectory = result.trajectory();
   if (!arguments.trajectory.empty()) platform::write_tum(arguments.trajectory, trajectory);
   if (bus) bus->commit();
+  if (trace) trace->commit();
   if (!arguments.svg.empty()) write_svg(arguments, setup.map(), trajectory, truth);
+  if (!arguments.latency.empty()) write_latencies(arguments.latency, result);
   ReplayReport report{.result = result, .evaluation = {}, .covariances = {}};
   if (!arguments.truth.empty() && !trajectory.empty()) {
     report.evaluation = platform::evaluate(truth, trajectory);
     report.covariances = check_covariances(result.sweeps, truth);
   }
+  if (!arguments.report.empty()) write_html(arguments, setup, report, capture, truth);
   fmt::print("{}", arguments.json ? to_json(report).dump(2) + "\n" : to_text(report));
 }
 
@@ -183,6 +244,10 @@ void add_replay_command(CLI::App& app) {
            "frames of the vehicle's bus, as candump -l writes them: what [odometry] tells how to read");
   add_file("--truth", arguments->truth, "TRUTH.tum", "true trajectory: report the errors against it");
   add_file("--svg", arguments->svg, "OUT.svg", "draw the trajectory over the map");
+  add_file("--report", arguments->report, "OUT.html", "write all of it as one page for a browser");
+  add_file("--trace", arguments->trace, "OUT.json", "write what was done when, for ui.perfetto.dev");
+  add_file("--latency", arguments->latency, "OUT.hgrm",
+           "write the latencies for HdrHistogram's plotters, and of each stage OUT.STAGE.hgrm");
   command.add_flag("--no-deskew{false}", arguments->input.deskew,
                    "leave the sweep's motion distortion in, to see what it costs");
   command.add_flag("--realtime", arguments->realtime,
@@ -195,7 +260,10 @@ void add_replay_command(CLI::App& app) {
       ->type_name("N")
       ->check(CLI::Range(1, 1'000'000));
   add_json_option(command, arguments->json);
-  command.callback([arguments] { replay(*arguments); });
+  command.callback([arguments, &command] {
+    arguments->command = command_line(command);
+    replay(*arguments);
+  });
 }
 
 }  // namespace landfix::tools

@@ -13,6 +13,7 @@
 
 #include "platform/evaluation.hpp"
 #include "tools/map_raster.hpp"
+#include "tools/svg.hpp"
 
 namespace landfix::tools {
 namespace {
@@ -33,21 +34,6 @@ constexpr std::array<std::string_view, 7> kErrorColours{"#1a7f5a", "#4fae4e", "#
                                                         "#f39a2b", "#e65f2b", "#c2242c"};
 constexpr std::string_view kPlainColour = "#c2242c";
 constexpr std::string_view kTruthColour = "#8fbce6";
-
-/// 1, 2 or 5 times a power of ten: the largest that is not above `value`.
-double nice_below(double value) {
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double step : {5.0, 2.0}) {
-    if (step * power <= value) return step * power;
-  }
-  return power;
-}
-
-double nice_above(double value) {
-  const double below = nice_below(value);
-  if (below >= value) return below;
-  return nice_below(below * 2.6);  // 1 -> 2, 2 -> 5, 5 -> 10
-}
 
 /// Positions of the trajectory, with what is known of their errors.
 struct Track {
@@ -119,19 +105,6 @@ class View {
   Eigen::AlignedBox2d area_m_;
   double pixels_per_m_ = 1.0;
   double left_ = 0.0;
-};
-
-class Svg {
- public:
-  template <class... Arguments>
-  void add(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
-    text_ += '\n';
-  }
-  [[nodiscard]] std::string take() { return std::move(text_); }
-
- private:
-  std::string text_;
 };
 
 void add_map(Svg& svg, std::span<const Eigen::Vector3f> points_m, const View& view) {

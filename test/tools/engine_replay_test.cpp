@@ -90,7 +90,7 @@ class EngineReplay : public testing::Test {
     platform::RunningEngine engine(platform::Engine(engine_settings(setup(), mode), setup().decoder,
                                                     setup().map(), nullptr, receiver, bus));
     is_locked_ = engine.missing().empty();
-    return run_engine(engine, receiver.counters(), true, [](const platform::SolvedSweep&) {});
+    return run_engine(engine, receiver.counters(), true);
   }
   [[nodiscard]] static bool is_locked() { return is_locked_; }
 

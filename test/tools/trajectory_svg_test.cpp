@@ -9,12 +9,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/xml.hpp"
 #include "tools/map_raster.hpp"
 
 namespace landfix::tools {
 namespace {
 
 using platform::StampedPose;
+using test::is_well_formed;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -37,24 +39,6 @@ std::vector<Eigen::Vector3f> plane_with_a_wall(float spacing_m) {
     for (float z = 0.0F; z < 6.0F; z += spacing_m) points.emplace_back(x, 30.0F, z);
   }
   return points;
-}
-
-/// Every element that is opened is closed, in the right order.
-bool is_well_formed(const std::string& xml) {
-  std::vector<std::string> open;
-  for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at + 1)) {
-    const std::size_t end = xml.find('>', at);
-    if (end == std::string::npos) return false;
-    const std::string tag = xml.substr(at + 1, end - at - 1);
-    if (tag.find('<') != std::string::npos) return false;
-    if (tag.front() == '/') {
-      if (open.empty() || open.back() != tag.substr(1)) return false;
-      open.pop_back();
-    } else if (tag.back() != '/') {
-      open.push_back(tag.substr(0, tag.find(' ')));
-    }
-  }
-  return open.empty();
 }
 
 TEST(TrajectorySvg, ShowsMapTrajectoryTruthAndErrors) {
