@@ -78,8 +78,24 @@ void SolveLoop::wait() noexcept {
     const std::int64_t now_utc_ns = utc_ns();
     take_odometry(now_utc_ns);
     predict_until(now_utc_ns);
+    if (counters_.sweeps == 0) say_that_none_came(now_utc_ns);
   }
   links_.packets_bell.wait(monotonic_ns() + kLongest_ns);
+}
+
+/// A sensor that has been silent from the start is NO_DATA too.
+void SolveLoop::say_that_none_came(std::int64_t now_utc_ns) noexcept {
+  constexpr std::int64_t kSilentAfter_ns = 1'000'000'000;
+  constexpr std::int64_t kPeriod_ns = 500'000'000;
+  const std::int64_t now_ns = monotonic_ns();
+  if (silence_due_ns_ == 0) silence_due_ns_ = now_ns + kSilentAfter_ns;
+  if (now_ns < silence_due_ns_) return;
+  silence_due_ns_ = now_ns + kPeriod_ns;
+  SweepResult result;
+  result.missing = true;
+  result.fix.state = ndt::State::no_data;
+  result.fix.at.stamp_utc_ns = now_utc_ns;
+  pass_on(result, now_ns);
 }
 
 template <class Ring>

@@ -30,6 +30,7 @@ class SolveLoop {
   void take_odometry(std::int64_t now_utc_ns) noexcept;
   void predict_until(std::int64_t now_utc_ns) noexcept;
   void wait() noexcept;
+  void say_that_none_came(std::int64_t now_utc_ns) noexcept;
   void pass_on(const SweepResult& result, std::int64_t arrived_mono_ns) noexcept;
   [[nodiscard]] SweepOrders orders(const PacketHeader& header) noexcept;
   template <class Ring>
@@ -46,6 +47,7 @@ class SolveLoop {
   std::size_t packets_of_sweep_ = 0;       ///< of the current one, so far
   std::size_t packets_of_last_sweep_ = 0;  ///< 0: there is none yet
   std::int64_t odometry_due_ns_ = 0;
+  std::int64_t silence_due_ns_ = 0;  ///< before the first sweep; 0: not begun
   std::int64_t last_stamp_utc_ns_ = 0;
   std::int64_t last_arrived_mono_ns_ = 0;
 };

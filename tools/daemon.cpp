@@ -20,6 +20,7 @@
 #include "tools/engine_setup.hpp"
 #include "tools/house.hpp"
 #include "tools/journal.hpp"
+#include "tools/metrics_server.hpp"
 #include "tools/replay_setup.hpp"
 
 namespace landfix::tools {
@@ -75,7 +76,7 @@ void resume(ReplaySetup& setup) {
   return ids;
 }
 
-void keep_house(platform::RunningEngine& engine, House& house, const Signals& signals) {
+void keep_house(House& house, const Signals& signals) {
   constexpr std::int64_t kTurn_ns = 50'000'000;
   for (;;) {
     const int signal = signals.wait(kTurn_ns);
@@ -84,7 +85,6 @@ void keep_house(platform::RunningEngine& engine, House& house, const Signals& si
       log_line(Severity::warning, "SIGHUP: the configuration is read at the start only; restart instead");
     }
     house.turn(platform::monotonic_ns());
-    (void)engine;
   }
 }
 
@@ -98,6 +98,8 @@ void run_daemon(const std::filesystem::path& config) {
   platform::UdpReceiver receiver(platform::udp_settings(setup.configuration.sensor, setup.model));
   for (const std::string& warning : receiver.warnings()) log_line(Severity::warning, warning);
   platform::SocketCan bus(setup.configuration.can.interface, setup.configuration.can.fd);
+  std::optional<MetricsServer> metrics;  // before the memory is locked: its stack is to be kept
+  if (!setup.configuration.metrics.address.empty()) metrics.emplace(setup.configuration.metrics.address);
   const std::vector<platform::CanId> odometry_ids = ids_of(setup.configuration.odometry);
   std::optional<platform::CanReceiver> odometry;
   if (!odometry_ids.empty()) odometry.emplace(setup.configuration.can.interface, odometry_ids);
@@ -108,12 +110,21 @@ void run_daemon(const std::filesystem::path& config) {
   std::optional<platform::MapLoader> loader;  // after the memory was locked: its stack need not be
   if (setup.window) loader.emplace(*setup.window);
 
-  House house(engine, notifier,
-              {.resume = setup.configuration.initial_pose.resume, .map_checksum = setup.map_checksum()});
+  constexpr std::int64_t kThreadBudget_ns = 1'000'000'000;  // each comes round at least every 100 ms
+  House house({.engine = engine,
+               .received = receiver.counters(),
+               .bus = bus,
+               .sensor = std::string(setup.model.name),
+               .began_mono_ns = platform::monotonic_ns(),
+               .thread_budget_ns = kThreadBudget_ns},
+              notifier, metrics ? &*metrics : nullptr,
+              {.resume = setup.configuration.initial_pose.resume,
+               .map_checksum = setup.map_checksum(),
+               .interface = setup.configuration.can.interface});
   notifier.ready("ready");
   log_line(Severity::info, fmt::format("{} on port {}, poses on {}", setup.model.display_name,
                                        setup.settings.port, setup.configuration.can.interface));
-  keep_house(engine, house, signals);
+  keep_house(house, signals);
   notifier.stopping("stopping");
   engine.stop();
   house.close();

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <exception>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "platform/bus_message.hpp"
 #include "platform/watchdog.hpp"
 #include "tools/journal.hpp"
 
@@ -14,7 +16,7 @@ namespace {
 constexpr std::int64_t kNs_per_s = 1'000'000'000;
 constexpr std::int64_t kSavePeriod_ns = 10 * kNs_per_s;
 constexpr std::int64_t kStatusPeriod_ns = 2 * kNs_per_s;
-constexpr std::int64_t kThreadBudget_ns = kNs_per_s;  // each comes round at least every 100 ms
+constexpr std::int64_t kSnapshotPeriod_ns = kNs_per_s / 2;
 
 }  // namespace
 
@@ -22,6 +24,11 @@ void House::turn(std::int64_t now_mono_ns) {
   while (const auto sweep = engine_.next_sweep()) take(*sweep);
   while (engine_.next_sent()) continue;
   watch(now_mono_ns);
+  say_of_bus();
+  if (metrics_ != nullptr && now_mono_ns >= snapshot_due_ns_) {
+    metrics_->publish(snapshot(view_, now_mono_ns));
+    snapshot_due_ns_ = now_mono_ns + kSnapshotPeriod_ns;
+  }
   if (now_mono_ns >= status_due_ns_) {
     notifier_.status(status_line());
     status_due_ns_ = now_mono_ns + kStatusPeriod_ns;
@@ -54,8 +61,9 @@ void House::watch(std::int64_t now_mono_ns) {
   const auto threads = engine_.threads();
   std::array<platform::WatchedThread, threads.size()> watched;
   for (std::size_t i = 0; i < threads.size(); ++i) {
-    watched[i] = {
-        .name = threads[i].name, .budget_ns = kThreadBudget_ns, .heartbeat = &threads[i].watch->heartbeat()};
+    watched[i] = {.name = threads[i].name,
+                  .budget_ns = view_.thread_budget_ns,
+                  .heartbeat = &threads[i].watch->heartbeat()};
   }
   const platform::WatchedThread* const late = platform::find_late(watched, now_mono_ns);
   if (late != nullptr && !was_late_) {
@@ -68,6 +76,13 @@ void House::watch(std::int64_t now_mono_ns) {
   if (was_late_ || !alive_period_ns || now_mono_ns < alive_due_ns_) return;
   notifier_.alive();
   alive_due_ns_ = now_mono_ns + *alive_period_ns / 2;
+}
+
+void House::say_of_bus() {
+  const platform::BusStatus bus = view_.bus.status();
+  if (bus.state == std::exchange(bus_, bus.state)) return;
+  log_line(bus.state == platform::BusState::up ? Severity::info : Severity::warning,
+           platform::describe_bus(settings_.interface, bus.state, bus.error));
 }
 
 /// A disk that is full costs a warning, once, and no pose.

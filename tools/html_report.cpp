@@ -114,10 +114,10 @@ enum class Mood : std::uint8_t { plain, good, bad };
                                    const std::vector<platform::LatencyDistribution>& stages) {
   const ReplayResult& result = report.replay.result;
   const double sweeps = static_cast<double>(std::max<std::size_t>(result.sweeps.size(), 1));
-  const double tracked_percent = 100.0 * static_cast<double>(result.count(ndt::State::tracking)) / sweeps;
-  std::string tiles = tile(fmt::format("{}", result.sweeps.size() - result.missing()), "sweeps");
+  const double tracked_percent = 100.0 * static_cast<double>(result.tally.count(ndt::State::tracking)) / sweeps;
+  std::string tiles = tile(fmt::format("{}", result.sweeps.size() - result.tally.missing()), "sweeps");
   tiles += tile(fmt::format("{:.1f} %", tracked_percent), "tracking");
-  tiles += zero_is_good(result.count(ndt::State::lost), "lost");
+  tiles += zero_is_good(result.tally.count(ndt::State::lost), "lost");
   if (report.replay.evaluation) {
     const platform::Evaluation& errors = *report.replay.evaluation;
     tiles += tile(fmt::format("{:.2f} cm", 100.0 * errors.ate_m.rmse), "position error, RMSE");
@@ -180,9 +180,9 @@ enum class Mood : std::uint8_t { plain, good, bad };
   std::string key = "<div class=\"key\">";
   for (int i = 5; i >= 0; --i) {
     const auto state = static_cast<ndt::State>(i);
-    if (result.count(state) == 0) continue;
+    if (result.tally.count(state) == 0) continue;
     key += fmt::format("<span><i style=\"background:{}\"></i>{} {}</span>", colour_of(state),
-                       ndt::to_string(state), result.count(state));
+                       ndt::to_string(state), result.tally.count(state));
   }
   return key + "</div>\n";
 }

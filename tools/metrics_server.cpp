@@ -13,7 +13,7 @@
 
 #include "platform/http_request.hpp"
 #include "platform/monotonic_clock.hpp"
-#include "platform/sleep.hpp"
+#include "platform/sleep_until.hpp"
 #include "tools/metrics_socket.hpp"
 #include "tools/metrics_text.hpp"
 #include "tools/status_json.hpp"

@@ -10,6 +10,8 @@
 namespace landfix::platform {
 namespace {
 
+using test::error_of;
+
 class SavedPoseFile : public ::testing::Test {
  protected:
   void SetUp() override { std::filesystem::create_directories(path.parent_path()); }

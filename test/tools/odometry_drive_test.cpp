@@ -185,7 +185,7 @@ TEST_F(OdometryDrive, WhatIsWrongIsLeftOut) {
     fmt::print("{}: error at the end {:.3f} m ({:.3f} m without odometry)\n", what, error_at_end_m(run),
                without_m);
     EXPECT_LE(error_at_end_m(run), without_m + 0.2) << what;
-    EXPECT_EQ(run.result.count(ndt::State::lost), 0U) << what;
+    EXPECT_EQ(run.result.tally.count(ndt::State::lost), 0U) << what;
     expect_tracking_is_true(run);
     return run;
   };
