@@ -48,8 +48,12 @@ Fix Localizer::localize(std::span<const Eigen::Vector3f> points_m, std::int64_t 
   begin_time(stamp_utc_ns);
   reckoning_.pass(seconds_between(last_, stamp_utc_ns), sigma_of(measured));
   Fix fix{.at = {stamp_utc_ns, predicted_pose(stamp_utc_ns, measured)}};
-  fix.match = matcher_.match(map_, points_m, fix.at.pose, reckoning_.sigma_m(), deadline);
-  fix.state = next_state(fix);
+  if (state_ == State::lost) {
+    recover(fix, recovery_.look(matcher_, map_, points_m, fix.at, deadline));
+  } else {
+    fix.match = matcher_.match(map_, points_m, fix.at.pose, reckoning_.sigma_m(), deadline);
+    fix.state = next_state(fix);
+  }
   if (fix.state >= State::degraded) {
     take_match(fix);
   } else if (fix.state == State::predicted) {
@@ -150,6 +154,14 @@ void Localizer::take_match(Fix& fix) noexcept {
   }
   if (state_ != State::init && is_baseline) velocity_ = steady_part(velocity_between(last_matched_, fix.at));
   if (state_ == State::init || is_baseline) last_matched_ = fix.at;
+  recovery_.remember(fix.at, velocity_, fix.match);
+}
+
+/// What was confirmed goes on from the sweep before, not from where the vehicle was lost.
+void Localizer::recover(Fix& fix, const Sighting& sighting) noexcept {
+  fix.match = sighting.match;
+  fix.state = sighting.confirmed ? State::tracking : State::lost;
+  if (sighting.confirmed) last_matched_ = sighting.before;
 }
 
 void Localizer::stand_still(const Pose& pose) noexcept {

@@ -14,6 +14,7 @@
 #include "ndt/matcher.hpp"
 #include "ndt/measured_motion.hpp"
 #include "ndt/motion.hpp"
+#include "ndt/recovery.hpp"
 #include "ndt/voxel_map.hpp"
 
 namespace landfix::ndt {
@@ -97,7 +98,9 @@ class Localizer {
   /// The time that it holds for: of the last sweep, or of what was measured since.
   [[nodiscard]] std::int64_t last_stamp_utc_ns() const noexcept { return last_.stamp_utc_ns; }
   /// The velocity to undo the next sweep's distortion with.
-  [[nodiscard]] const Velocity& velocity() const noexcept { return velocity_; }
+  [[nodiscard]] const Velocity& velocity() const noexcept {
+    return state_ == State::lost ? recovery_.velocity() : velocity_;
+  }
 
   /// `points_m`: deskewed and filtered, frame `vehicle` at `stamp_utc_ns`, the end of the sweep. Where
   /// stamps do not rise the prediction stands still. `measured`: the motion since `last_stamp_utc_ns`, by
@@ -124,6 +127,7 @@ class Localizer {
   [[nodiscard]] State state_without_match(std::int64_t stamp_utc_ns) const noexcept;
   [[nodiscard]] Matrix6 predicted_covariance(const DeadReckoning& reckoning, const Pose& pose) const noexcept;
   void take_match(Fix& fix) noexcept;
+  void recover(Fix& fix, const Sighting& sighting) noexcept;
   void stand_still(const Pose& pose) noexcept;
 
   VoxelMap map_;
@@ -135,6 +139,7 @@ class Localizer {
   Velocity velocity_ = Velocity::Zero();
   DeadReckoning reckoning_;
   SweepDistortion distortion_;
+  Recovery recovery_;
   Matrix6 last_covariance_ = Matrix6::Zero();  ///< by a match
   State state_ = State::init;
   bool any_sweep_ = false;
