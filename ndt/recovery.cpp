@@ -65,7 +65,8 @@ Sighting Recovery::look(Matcher& matcher, const VoxelMap& map, std::span<const E
                         const StampedPose& prediction, const Deadline& deadline) noexcept {
   const std::int64_t stamp_utc_ns = prediction.stamp_utc_ns;
   pass_time(stamp_utc_ns);
-  Sighting sighting{.before = track_.at};
+  Sighting sighting;
+  sighting.before = track_.at;
   const double step_s = seconds_between(track_.at.stamp_utc_ns, stamp_utc_ns);
   if (track_.sweeps != 0 && step_s > 0.0 && step_s < kShortestStep_s) return sighting;  // a splinter
   if (track_.sweeps != 0) {
