@@ -121,6 +121,7 @@ class Localizer {
 
  private:
   void begin_time(std::int64_t stamp_utc_ns) noexcept;
+  void learn_period(std::int64_t between_ns) noexcept;
   [[nodiscard]] Pose predicted_pose(std::int64_t stamp_utc_ns,
                                     const std::optional<MeasuredMotion>& measured) const noexcept;
   [[nodiscard]] State next_state(const Fix& fix) const noexcept;
@@ -142,6 +143,8 @@ class Localizer {
   Recovery recovery_;
   Matrix6 last_covariance_ = Matrix6::Zero();  ///< by a match
   State state_ = State::init;
+  std::int64_t period_ns_ = 100'000'000;  ///< of the sweeps
+  bool clock_was_set_ = false;            ///< since the last match
   bool any_sweep_ = false;
 };
 

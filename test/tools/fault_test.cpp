@@ -2,7 +2,11 @@
 // and after the fault the vehicle is found again without help.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <csignal>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -12,12 +16,19 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include "ndt/map_layout.hpp"
 #include "ndt/pose.hpp"
 #include "platform/can_frame.hpp"
+#include "platform/candump_log.hpp"
+#include "platform/saved_pose.hpp"
 #include "platform/trajectory.hpp"
 #include "support/block_drive.hpp"
+#include "support/child_process.hpp"
+#include "support/error_of.hpp"
 #include "support/packet_list.hpp"
 #include "support/pandar_packets.hpp"
 #include "support/synthetic_packets.hpp"
@@ -265,6 +276,171 @@ TEST_F(Faults, ClockSteps) {
                        .recovery_limit_s = 1.0,
                        .leap_ns = leap_ns});
     }
+  }
+}
+
+constexpr std::uint32_t kSensor = 0xC0A801C9;    // 192.168.1.201
+constexpr std::uint32_t kStranger = 0xC0A801CA;  // another
+/// The drive as that sensor sends it.
+[[nodiscard]] PacketList from_sensor(PacketList packets) {
+  for (OwnedPacket& packet : packets) packet.packet.source_address = kSensor;
+  return packets;
+}
+
+/// After each packet in the time of the fault, what `add` makes of it.
+template <class Add>
+[[nodiscard]] PacketList with_more(const PacketList& packets, Add add) {
+  PacketList more;
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    more.push_back(packets[i]);
+    const std::int64_t since_ns = packets[i].packet.receive_utc_ns - packets.front().packet.receive_utc_ns;
+    if (since_ns >= static_cast<std::int64_t>(kFrom_s * 1e9) &&
+        since_ns < static_cast<std::int64_t>(kUntil_s * 1e9))
+      add(more, i);
+  }
+  return more;
+}
+
+TEST_F(Faults, AnotherSensorOnThePort) {
+  expect_survival({.name = "another model on the port", .spoil = [](const PacketList& packets) {
+                     return with_more(packets, [](PacketList& more, std::size_t) {
+                       OwnedPacket other = more.back();
+                       if (other.payload.size() == kPayload)
+                         other.payload.back() = std::byte{0x28};  // VLP-32C
+                       more.push_back(other);
+                     });
+                   }});
+  expect_survival({.name = "another vendor on the port", .spoil = [](const PacketList& packets) {
+                     return with_more(packets, [](PacketList& more, std::size_t) {
+                       const test::Pandar64Packet other;
+                       more.push_back(more.back());
+                       more.back().payload.assign(other.bytes().begin(), other.bytes().end());
+                     });
+                   }});
+  const Fault unit{.name = "another unit of the model, [sensor] address set",
+                   .spoil = [](const PacketList& packets) {
+                     const PacketList sensor = from_sensor(packets);
+                     return with_more(sensor, [&sensor](PacketList& more, std::size_t i) {
+                       more.push_back(sensor[(i + sensor.size() / 2) % sensor.size()]);
+                       more.back().packet.source_address = kStranger;
+                       more.back().packet.receive_utc_ns = sensor[i].packet.receive_utc_ns;
+                     });
+                   }};
+  const ReplayResult result = replay(unit.spoil(packets()), nullptr, kSensor);
+  EXPECT_GT(result.pipeline.other_senders, 5000U);
+  expect_survival(unit, result);
+}
+
+TEST_F(Faults, AFloodOfSmallPackets) {
+  const Fault flood{.name = "20 small packets from a stranger to each of the sensor's",
+                    .spoil = [](const PacketList& packets) {
+                      std::mt19937_64 random(1);
+                      return with_more(from_sensor(packets), [&random](PacketList& more, std::size_t) {
+                        OwnedPacket small = more.back();
+                        small.packet.source_address = kStranger;
+                        for (int i = 0; i < 20; ++i) {
+                          small.payload.assign(random() % 64, std::byte{0x5A});
+                          more.push_back(small);
+                        }
+                      });
+                    }};
+  for (const std::uint32_t address : {0U, kSensor}) {
+    const ReplayResult result = replay(flood.spoil(packets()), nullptr, address);
+    EXPECT_GT(address == 0 ? result.pipeline.rejected() : result.pipeline.other_senders, 100'000U);
+    expect_survival(flood, result);
+  }
+}
+
+/// A bus that takes nothing for some time.
+class DownBus final : public platform::FrameSink {
+ public:
+  DownBus(std::int64_t from_utc_ns, std::int64_t until_utc_ns) : from_(from_utc_ns), until_(until_utc_ns) {}
+  [[nodiscard]] std::size_t send(std::span<const platform::CanFrame> group,
+                                 std::int64_t stamp_utc_ns) noexcept override {
+    if (stamp_utc_ns >= from_ && stamp_utc_ns < until_) return 0;
+    ++(stamp_utc_ns < from_ ? before : after);
+    return group.size();
+  }
+  std::size_t before = 0;
+  std::size_t after = 0;
+
+ private:
+  std::int64_t from_;
+  std::int64_t until_;
+};
+
+TEST_F(Faults, ABusThatIsDown) {
+  const std::int64_t start_ns = packets().front().packet.receive_utc_ns;
+  DownBus bus(start_ns + 5 * kSecond_ns, start_ns + 15 * kSecond_ns);
+  const Fault fault{.name = "bus down for 10 s", .spoil = [](const PacketList& packets) { return packets; }};
+  const ReplayResult result = replay(packets(), &bus);
+  expect_survival(fault, result);
+  EXPECT_EQ(result.frames_dropped, 100U * 6U);
+  EXPECT_GT(bus.before, 40U);
+  EXPECT_GT(bus.after, 100U);
+}
+
+/// For a child: files may grow to so many bytes, as on a disk that is nearly full.
+void fill_disk(rlim_t bytes) {
+  ::signal(SIGXFSZ, SIG_IGN);
+  const rlimit limit{bytes, bytes};
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+}
+
+TEST_F(Faults, AFullDisk) {
+  const std::string log = path("full.log");
+  const std::string said = test::in_child([&log] {
+    fill_disk(100'000);
+    platform::CandumpLog bus(log, "can0");
+    const ReplayResult result = replay(packets(), &bus);
+    return fmt::format("{} sweeps, all tracking: {}, dropped: {}; {}", result.tally.came(),
+                       result.tally.count(ndt::State::tracking) == result.tally.came(),
+                       result.frames_dropped > 500, test::error_of([&bus] {
+                         bus.commit();
+                         return 0;
+                       }));
+  });
+  fmt::print("disk full under the CAN log: {}\n", said);
+  EXPECT_THAT(said, testing::HasSubstr("all tracking: true, dropped: true; "));
+  EXPECT_THAT(said, testing::HasSubstr("is the disk full?"));
+  EXPECT_FALSE(std::filesystem::exists(log)) << "a log is whole or absent";
+
+  const std::string kept = path("kept.toml");
+  platform::save_pose(kept, {.map_checksum = 1});
+  const std::string whole = test::text_of(kept);
+  const std::string refused = test::in_child([&kept] {
+    fill_disk(0);
+    return test::error_of([&kept] {
+      platform::save_pose(kept, {.map_checksum = 2});
+      return 0;
+    });
+  });
+  EXPECT_THAT(refused, testing::HasSubstr("kept.toml: cannot write: File too large"));
+  EXPECT_EQ(test::text_of(kept), whole) << "the old one is left";
+}
+
+TEST_F(Faults, ACorruptedMap) {
+  const std::string sound = test::text_of(path("map.ndt"));
+  const ndt::MapHeader header = setup().map().header();
+  const ndt::MapLayout layout(header);
+  const std::string damaged = path("damaged.ndt");
+  const auto refusal = [&](std::size_t offset) {
+    std::string bytes = sound;
+    bytes[offset] = static_cast<char>(bytes[offset] ^ 0x10);
+    std::ofstream(damaged, std::ios::binary) << bytes;
+    return test::error_of([&] { return prepare_replay({.config = path("config.toml"), .map = damaged}); });
+  };
+  for (std::size_t offset = 0; offset < sizeof header; ++offset)
+    EXPECT_THAT(refusal(offset), testing::HasSubstr("damaged.ndt: ")) << "header, byte " << offset;
+  const std::array<std::pair<const char*, std::array<std::uint64_t, 2>>, 5> regions{
+      {{"table", {layout.table, layout.columns}},
+       {"columns", {layout.columns, layout.voxels}},
+       {"voxels", {layout.voxels, layout.blocks}},
+       {"blocks", {layout.blocks, layout.tiles}},
+       {"tiles", {layout.tiles, layout.end}}}};
+  for (const auto& [name, ends] : regions) {
+    for (const std::uint64_t offset : {ends[0], (ends[0] + ends[1]) / 2, ends[1] - 1})
+      EXPECT_THAT(refusal(offset), testing::HasSubstr("damaged.ndt: ")) << name << ", byte " << offset;
   }
 }
 
