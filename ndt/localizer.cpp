@@ -48,8 +48,12 @@ Fix Localizer::localize(std::span<const Eigen::Vector3f> points_m, std::int64_t 
   begin_time(stamp_utc_ns);
   reckoning_.pass(seconds_between(last_, stamp_utc_ns), sigma_of(measured));
   Fix fix{.at = {stamp_utc_ns, predicted_pose(stamp_utc_ns, measured)}};
-  fix.match = matcher_.match(map_, points_m, fix.at.pose, reckoning_.sigma_m(), deadline);
-  fix.state = next_state(fix);
+  if (state_ == State::lost) {
+    recover(fix, recovery_.look(matcher_, map_, points_m, fix.at, deadline));
+  } else {
+    fix.match = matcher_.match(map_, points_m, fix.at.pose, reckoning_.sigma_m(), deadline);
+    fix.state = next_state(fix);
+  }
   if (fix.state >= State::degraded) {
     take_match(fix);
   } else if (fix.state == State::predicted) {
@@ -97,16 +101,34 @@ Pose Localizer::predicted_pose(std::int64_t stamp_utc_ns,
   return measured ? last_.pose * measured->change : predict(last_, velocity_, stamp_utc_ns);
 }
 
-/// Where a clock was set back, time begins anew: nothing is predicted backwards, and LOST is still in reach.
+/// Where a clock was set while the sweeps kept coming, it is as if one period had passed.
 void Localizer::begin_time(std::int64_t stamp_utc_ns) noexcept {
+  constexpr std::int64_t kSetBack_ns = 500'000'000;
+  constexpr std::int64_t kSetForward_ns = 2'000'000'000;  // a silence is told sooner, and is no leap
   if (!std::exchange(any_sweep_, true)) {
     last_.stamp_utc_ns = stamp_utc_ns;
     last_matched_ = last_;
     last_sweep_utc_ns_ = stamp_utc_ns;
   }
+  const std::int64_t since_sweep_ns = stamp_utc_ns - last_sweep_utc_ns_;
+  const bool is_forward = since_sweep_ns > kSetForward_ns && state_ >= State::predicted;
+  if (since_sweep_ns < -kSetBack_ns || is_forward) {
+    clock_was_set_ = true;
+    const std::int64_t leap_ns = since_sweep_ns - period_ns_;
+    last_.stamp_utc_ns += leap_ns;
+    last_matched_.stamp_utc_ns += leap_ns;
+    last_sweep_utc_ns_ += leap_ns;
+  }
   last_sweep_utc_ns_ = std::min(last_sweep_utc_ns_, stamp_utc_ns);
   last_.stamp_utc_ns = std::min(last_.stamp_utc_ns, stamp_utc_ns);
   last_matched_.stamp_utc_ns = std::min(last_matched_.stamp_utc_ns, stamp_utc_ns);
+  learn_period(stamp_utc_ns - last_sweep_utc_ns_);
+}
+
+void Localizer::learn_period(std::int64_t between_ns) noexcept {
+  constexpr std::int64_t kShortest_ns = 40'000'000;
+  constexpr std::int64_t kLongest_ns = 250'000'000;
+  if (between_ns >= kShortest_ns && between_ns <= kLongest_ns) period_ns_ = between_ns;
 }
 
 State Localizer::next_state(const Fix& fix) const noexcept {
@@ -142,14 +164,26 @@ void Localizer::take_match(Fix& fix) noexcept {
   const Pose prediction = std::exchange(fix.at.pose, fix.match.pose);
   fix.covariance = fix.match.covariance + from_vehicle_covariance(distortion_.covariance(), fix.at.pose);
   last_covariance_ = fix.covariance;
+  // How long it was since a match before the clock was set is not known.
+  const bool clock_was_set = std::exchange(clock_was_set_, false);
   const bool is_baseline =
-      seconds_between(last_matched_, fix.at.stamp_utc_ns) >= settings_.shortest_baseline_s;
+      !clock_was_set && seconds_between(last_matched_, fix.at.stamp_utc_ns) >= settings_.shortest_baseline_s;
   if (fix.match.weak.count == 0) {
     reckoning_.hold(state_ != State::init && is_baseline);
     if (state_ >= State::degraded) distortion_.observe(pose_log(prediction.inverse() * fix.at.pose));
   }
   if (state_ != State::init && is_baseline) velocity_ = steady_part(velocity_between(last_matched_, fix.at));
-  if (state_ == State::init || is_baseline) last_matched_ = fix.at;
+  if (state_ == State::init || is_baseline || clock_was_set) last_matched_ = fix.at;
+  recovery_.remember(fix.at, velocity_, fix.match);
+}
+
+/// What was confirmed goes on from the sweep before, not from where the vehicle was lost.
+void Localizer::recover(Fix& fix, const Sighting& sighting) noexcept {
+  fix.match = sighting.match;
+  fix.state = sighting.confirmed ? State::tracking : State::lost;
+  if (!sighting.confirmed) return;
+  last_matched_ = sighting.before;
+  clock_was_set_ = false;
 }
 
 void Localizer::stand_still(const Pose& pose) noexcept {

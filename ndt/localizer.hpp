@@ -14,6 +14,7 @@
 #include "ndt/matcher.hpp"
 #include "ndt/measured_motion.hpp"
 #include "ndt/motion.hpp"
+#include "ndt/recovery.hpp"
 #include "ndt/voxel_map.hpp"
 
 namespace landfix::ndt {
@@ -97,7 +98,9 @@ class Localizer {
   /// The time that it holds for: of the last sweep, or of what was measured since.
   [[nodiscard]] std::int64_t last_stamp_utc_ns() const noexcept { return last_.stamp_utc_ns; }
   /// The velocity to undo the next sweep's distortion with.
-  [[nodiscard]] const Velocity& velocity() const noexcept { return velocity_; }
+  [[nodiscard]] const Velocity& velocity() const noexcept {
+    return state_ == State::lost ? recovery_.velocity() : velocity_;
+  }
 
   /// `points_m`: deskewed and filtered, frame `vehicle` at `stamp_utc_ns`, the end of the sweep. Where
   /// stamps do not rise the prediction stands still. `measured`: the motion since `last_stamp_utc_ns`, by
@@ -118,12 +121,14 @@ class Localizer {
 
  private:
   void begin_time(std::int64_t stamp_utc_ns) noexcept;
+  void learn_period(std::int64_t between_ns) noexcept;
   [[nodiscard]] Pose predicted_pose(std::int64_t stamp_utc_ns,
                                     const std::optional<MeasuredMotion>& measured) const noexcept;
   [[nodiscard]] State next_state(const Fix& fix) const noexcept;
   [[nodiscard]] State state_without_match(std::int64_t stamp_utc_ns) const noexcept;
   [[nodiscard]] Matrix6 predicted_covariance(const DeadReckoning& reckoning, const Pose& pose) const noexcept;
   void take_match(Fix& fix) noexcept;
+  void recover(Fix& fix, const Sighting& sighting) noexcept;
   void stand_still(const Pose& pose) noexcept;
 
   VoxelMap map_;
@@ -135,8 +140,11 @@ class Localizer {
   Velocity velocity_ = Velocity::Zero();
   DeadReckoning reckoning_;
   SweepDistortion distortion_;
+  Recovery recovery_;
   Matrix6 last_covariance_ = Matrix6::Zero();  ///< by a match
   State state_ = State::init;
+  std::int64_t period_ns_ = 100'000'000;  ///< of the sweeps
+  bool clock_was_set_ = false;            ///< since the last match
   bool any_sweep_ = false;
 };
 

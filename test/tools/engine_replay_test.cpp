@@ -3,9 +3,6 @@
 #include "tools/engine_replay.hpp"
 
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -18,8 +15,7 @@
 #include "platform/heap_counter.hpp"
 #include "platform/pcap_receiver.hpp"
 #include "platform/trajectory.hpp"
-#include "support/run_landfix.hpp"
-#include "support/test_data.hpp"
+#include "support/block_drive.hpp"
 #include "tools/engine_setup.hpp"
 #include "tools/replay_run.hpp"
 #include "tools/replay_setup.hpp"
@@ -27,60 +23,20 @@
 namespace landfix::tools {
 namespace {
 
-constexpr const char* kRoute = R"(seed = 5
-heading_deg = 0.0
-[road]
-lanes = 2
-lane_width_m = 3.0
-parking_width_m = 0.0
-pavement_width_m = 2.0
-[scenery]
-buildings_per_100m = 6.0
-building_setback_m = 4.0
-building_height_m = 10.0
-trees_per_100m = 8.0
-poles_per_100m = 6.0
-signs_per_100m = 2.0
-boundaries_per_100m = 2.0
-side_streets_per_100m = 0.0
-parked_cars_per_100m = 0.0
-moving_cars_per_100m = 0.0
-)";
-
-[[nodiscard]] std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-/// Once around a small block, 140 m, simulated once for all tests.
+/// Simulated once for all tests.
 class EngineReplay : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    directory_ = std::make_unique<test::TemporaryDirectory>();
-    std::ofstream route(path("block.toml"));
-    route << kRoute;
-    for (const double straight_m : {5.0, 10.0, 10.0, 10.0}) {
-      route << "[[segment]]\nlength_m = " << straight_m << "\ngrade = 0.0\nspeed_kmh = 25.0\n"
-            << "[[segment]]\nlength_m = 25.0\nturn_deg = 90.0\ngrade = 0.0\nspeed_kmh = 20.0\n";
-    }
-    route << "[[segment]]\nlength_m = 5.0\ngrade = 0.0\nspeed_kmh = 25.0\n";
-    route.close();
-    const test::Outcome simulated = test::run_landfix(
-        {"simulate", "--route", path("block.toml"), "--sensor", "vlp16", "--output", path("")});
-    ASSERT_EQ(simulated.code, 0) << simulated.error;
-    const test::Outcome mapped = test::run_landfix(
-        {"map", "--pcd", path("map.pcd"), "--resolution", "1", "--output", path("map.ndt")});
-    ASSERT_EQ(mapped.code, 0) << mapped.error;
+    drive_ = std::make_unique<test::BlockDrive>();
+    ASSERT_NO_FATAL_FAILURE(drive_->simulate());
     setup_ = std::make_unique<ReplaySetup>(prepare_replay({.config = path("config.toml")}));
   }
   static void TearDownTestSuite() {
     setup_.reset();
-    directory_.reset();
+    drive_.reset();
   }
 
-  [[nodiscard]] static std::string path(const std::string& name) {
-    return (directory_->path() / name).string();
-  }
+  [[nodiscard]] static std::string path(const std::string& name) { return drive_->path(name); }
   [[nodiscard]] static const ReplaySetup& setup() { return *setup_; }
 
   /// In threads.
@@ -95,7 +51,7 @@ class EngineReplay : public testing::Test {
   [[nodiscard]] static bool is_locked() { return is_locked_; }
 
  private:
-  static inline std::unique_ptr<test::TemporaryDirectory> directory_;
+  static inline std::unique_ptr<test::BlockDrive> drive_;
   static inline std::unique_ptr<ReplaySetup> setup_;
   static inline bool is_locked_ = false;
 };
@@ -112,7 +68,7 @@ template <class Replay>
   platform::CandumpLog bus(file, "can0");
   const ReplayResult result = replay(bus);
   bus.commit();
-  return {text_of(file), platform::format_tum(result.trajectory())};
+  return {test::text_of(file), platform::format_tum(result.trajectory())};
 }
 
 TEST_F(EngineReplay, GivesWhatOneThreadGives) {

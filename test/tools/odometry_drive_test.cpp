@@ -86,8 +86,9 @@ class OdometryDrive : public testing::Test {
   }
   static void expect_tracking_is_true(const Run& run) {
     for (const platform::SweepResult& sweep : run.result.sweeps) {
-      if (sweep.fix.state == ndt::State::tracking && !std::isnan(error_m(sweep)))
+      if (sweep.fix.state == ndt::State::tracking && !std::isnan(error_m(sweep))) {
         EXPECT_LT(error_m(sweep), 0.3) << sweep.fix.at.stamp_utc_ns;
+      }
     }
   }
 

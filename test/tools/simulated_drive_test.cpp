@@ -344,7 +344,9 @@ TEST_F(SimulatedDrive, MissingSweepsArePredicted) {
   EXPECT_EQ(result.tally.count(ndt::State::lost), 0U);
   for (const platform::SweepResult& sweep : result.sweeps) {
     EXPECT_LE(sweep.fix.at.stamp_utc_ns - sweep.seen_utc_ns, sweep.missing ? 400'000'000 : 0);
-    if (sweep.missing) EXPECT_EQ(sweep.fix.state, ndt::State::predicted);
+    if (sweep.missing) {
+      EXPECT_EQ(sweep.fix.state, ndt::State::predicted);
+    }
   }
   const auto poses = result.trajectory();
   for (std::size_t i = 1; i < poses.size(); ++i) {
@@ -366,7 +368,9 @@ TEST_F(SimulatedDrive, ASilentSensorIsNoDataAfterASecond) {
   for (const platform::SweepResult& sweep : result.sweeps) {
     const bool is_prediction = sweep.missing && sweep.fix.state == ndt::State::predicted;
     predicted += is_prediction ? 1U : 0U;
-    if (is_prediction) EXPECT_LE(sweep.fix.at.stamp_utc_ns - sweep.seen_utc_ns, 1'000'000'000);
+    if (is_prediction) {
+      EXPECT_LE(sweep.fix.at.stamp_utc_ns - sweep.seen_utc_ns, 1'000'000'000);
+    }
   }
   EXPECT_GE(predicted, 9U);
   EXPECT_LE(predicted, 10U);

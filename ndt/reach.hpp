@@ -1,0 +1,59 @@
+// Where a vehicle may have got to since it was last seen, on the ground that the map shows: a sequence of
+// guesses that fills it evenly, and what the map says of each at first sight.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "ndt/pose.hpp"
+#include "ndt/voxel_map.hpp"
+
+namespace landfix::ndt {
+
+/// A pose, and how many of some points fall into voxels there.
+struct Guess {
+  Pose pose = Pose::Identity();
+  std::size_t hits = 0;
+};
+
+/// Without end, and always the same: every other guess is on a path of straight, curve, straight; the rest is
+/// anywhere within reach, with any heading.
+class GuessSequence {
+ public:
+  /// The next one, relative to where the vehicle was, in the plane: x, y, heading. `reach_m`: the longest
+  /// way.
+  [[nodiscard]] Eigen::Vector3d next(double reach_m) noexcept;
+
+ private:
+  [[nodiscard]] std::array<double, 3> next_fractions() noexcept;
+  // The additive recurrence of lowest discrepancy in three dimensions (Roberts, 2018), in units of 2^-64.
+  std::array<std::uint64_t, 3> state_{};
+  bool is_path_ = false;
+};
+
+/// The way that a vehicle can have made in that time, from that speed on.
+[[nodiscard]] double reach_m(double speed_mps, double duration_s) noexcept;
+
+/// The height of the voxel above or below a place that is nearest to it, within `within_m`.
+[[nodiscard]] std::optional<double> ground_m(const VoxelMap& map, const Eigen::Vector3d& place_m,
+                                             double within_m) noexcept;
+
+/// Of the points that tell one place from another, those above the ground, a few.
+class Landmarks {
+ public:
+  explicit Landmarks(std::span<const Eigen::Vector3f> points_m) noexcept;
+  /// Those that fall into a voxel.
+  [[nodiscard]] std::size_t hits(const VoxelMap& map, const Pose& pose) const noexcept;
+
+ private:
+  static constexpr std::size_t kMost = 160;
+  std::array<Eigen::Vector3f, kMost> points_m_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace landfix::ndt
