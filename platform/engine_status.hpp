@@ -12,6 +12,7 @@
 #include "ndt/localizer.hpp"
 #include "platform/bus_status.hpp"
 #include "platform/latency_histogram.hpp"
+#include "platform/odometry.hpp"
 #include "platform/stage.hpp"
 
 namespace landfix::platform {
@@ -77,6 +78,8 @@ struct EngineStatus {
   std::uint64_t points_dropped = 0;
   std::uint64_t clock_steps = 0;
   std::uint64_t sensor_restarts = 0;
+
+  OdometryStatus odometry;
 
   BusStatus bus;
   std::uint64_t poses_saturated = 0;

@@ -41,6 +41,14 @@ nlohmann::ordered_json to_json(const platform::EngineStatus& status) {
   object["points_dropped"] = status.points_dropped;
   object["clock_steps"] = status.clock_steps;
   object["restarts"] = status.sensor_restarts;
+  const platform::OdometryStatus& odometry = status.odometry;
+  object["odometry"] = {{"frames", odometry.counters.frames},
+                        {"samples", odometry.counters.samples},
+                        {"jumps", odometry.counters.jumps},
+                        {"silent", odometry.counters.silent},
+                        {"times_left_out", odometry.counters.times_left_out},
+                        {"speed_believed", odometry.is_speed_believed},
+                        {"yaw_rate_believed", odometry.is_yaw_rate_believed}};
   object["can"] = {{"state", platform::to_string(status.bus.state)},
                    {"frames", status.bus.frames_sent},
                    {"dropped_queue_full", status.bus.dropped_queue_full},

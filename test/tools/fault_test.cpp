@@ -406,12 +406,12 @@ TEST_F(Faults, AFullDisk) {
   EXPECT_FALSE(std::filesystem::exists(log)) << "a log is whole or absent";
 
   const std::string kept = path("kept.toml");
-  platform::save_pose(kept, {.map_checksum = 1});
+  platform::save_pose(kept, {.at = {}, .map_checksum = 1});
   const std::string whole = test::text_of(kept);
   const std::string refused = test::in_child([&kept] {
     fill_disk(0);
     return test::error_of([&kept] {
-      platform::save_pose(kept, {.map_checksum = 2});
+      platform::save_pose(kept, {.at = {}, .map_checksum = 2});
       return 0;
     });
   });

@@ -1,0 +1,125 @@
+// landfixd on a real interface: packets from the network, poses on vcan0, odometry from it.
+#include <chrono>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "guest/guest_commands.hpp"
+#include "platform/socket_can.hpp"
+#include "support/test_data.hpp"
+
+namespace landfix::platform {
+namespace {
+
+using testing::HasSubstr;
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+void sleep_s(double s) { std::this_thread::sleep_for(std::chrono::duration<double>(s)); }
+
+/// The first seconds of a drive on the circuit, simulated once.
+class Daemon : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    if (SocketCan("vcan0", false).status().state == BusState::missing) return;
+    directory_ = std::make_unique<test::TemporaryDirectory>();
+    test::run(LANDFIX_PROGRAM " simulate --route circuit --length 60 --sensor vlp16 --output " + path("") +
+              " >" + path("simulate.out"));
+    test::run(LANDFIX_PROGRAM " map --pcd " + path("map.pcd") + " --resolution 1 --output " +
+              path("map.ndt") + " >" + path("map.out"));
+    test::run("sed -i '/^\\[sensor\\]/a address = \"127.0.0.9\"' " + path("config.toml"));
+    std::ofstream(path("config.toml"), std::ios::app)
+        << "\n[can]\ninterface = \"vcan0\"\nrate_hz = 20.0\n[metrics]\naddress = \"127.0.0.1:9464\"\n";
+  }
+  static void TearDownTestSuite() { directory_.reset(); }
+  void SetUp() override {
+    if (!directory_) GTEST_SKIP() << "no vcan0 here: ./check can";
+  }
+
+  [[nodiscard]] static std::string path(const std::string& name) {
+    return (directory_->path() / name).string();
+  }
+  [[nodiscard]] static std::string daemon() {
+    return LANDFIXD_PROGRAM " --config " + path("config.toml") + " 2>" + path("daemon.out");
+  }
+  [[nodiscard]] static std::string play() {
+    return LANDFIX_PROGRAM " play --pcap " + path("capture.pcap") + " --to 127.0.0.1 --from 127.0.0.9 >" +
+           path("play.out");
+  }
+  /// What `landfix can decode` says of the frames that candump saw.
+  [[nodiscard]] static nlohmann::json decoded() {
+    test::run(LANDFIX_PROGRAM " can decode " + path("bus.log") + " --json >" + path("decoded.json"));
+    return nlohmann::json::parse(text_of(path("decoded.json")));
+  }
+  [[nodiscard]] static std::size_t count(const nlohmann::json& report, const std::string& state) {
+    std::size_t poses = 0;
+    for (const nlohmann::json& pose : report["poses"]) poses += pose["state"] == state ? 1U : 0U;
+    return poses;
+  }
+
+ private:
+  static inline std::unique_ptr<test::TemporaryDirectory> directory_;
+};
+
+TEST_F(Daemon, PublishesOnTheBusAtItsRate) {
+  test::Background dump("candump -L vcan0 >" + path("bus.log"));
+  test::Background daemon_process(daemon());
+  sleep_s(2.0);
+  test::run(play());
+  test::run(LANDFIX_PROGRAM " top --once --json >" + path("top.json"));
+  sleep_s(0.5);
+  daemon_process.stop();
+  sleep_s(0.3);
+  dump.stop();
+  EXPECT_EQ(daemon_process.exit_code(), 0) << text_of(path("daemon.out"));
+  const nlohmann::json report = decoded();
+  for (const char* const fault : {"wrong_crc", "repeated", "lost", "wrong_sequence", "out_of_order"}) {
+    EXPECT_EQ(report["fault_counts"][fault], 0) << fault;
+  }
+  EXPECT_GT(count(report, "TRACKING"), 100U) << text_of(path("daemon.out"));
+  EXPECT_EQ(report["poses"].back()["state"], "NO_DATA") << "the last that is said";
+  // 20 a second, in order, over all of it.
+  const auto& poses = report["poses"];
+  const double seconds = 1e-9 * static_cast<double>(poses.back()["stamp_utc_ns"].get<std::int64_t>() -
+                                                    poses.front()["stamp_utc_ns"].get<std::int64_t>());
+  EXPECT_NEAR(static_cast<double>(poses.size()) / seconds, 20.0, 3.0);
+  EXPECT_EQ(nlohmann::json::parse(text_of(path("top.json")))["can"]["state"], "up");
+}
+
+TEST_F(Daemon, ComesBackWithTheInterface) {
+  test::Background daemon_process(daemon());
+  sleep_s(1.0);
+  test::run("ip link set vcan0 down");
+  sleep_s(0.5);
+  test::run("ip link set vcan0 up");
+  test::Background dump("candump -L vcan0 >" + path("bus.log"));
+  sleep_s(1.2);
+  dump.stop();
+  daemon_process.stop();
+  EXPECT_GT(decoded()["poses"].size(), 4U) << "within a second";
+  EXPECT_THAT(text_of(path("daemon.out")), HasSubstr("vcan0"));
+}
+
+TEST_F(Daemon, UsesTheOdometryOfTheBus) {
+  test::Background daemon_process(daemon());
+  sleep_s(1.0);
+  test::Background odometry("canplayer vcan0=can0 -I " + path("odometry.log"));
+  test::run(play());
+  test::run(LANDFIX_PROGRAM " top --once --json >" + path("top.json"));
+  daemon_process.stop();
+  const nlohmann::json status = nlohmann::json::parse(text_of(path("top.json")));
+  EXPECT_GT(status["odometry"]["samples"], 100) << status.dump(1);
+  EXPECT_TRUE(status["odometry"]["speed_believed"]) << status.dump(1);
+}
+
+}  // namespace
+}  // namespace landfix::platform
