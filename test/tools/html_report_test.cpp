@@ -48,6 +48,7 @@ ReplayResult drive(int sweeps) {
     sweep.missing = sweep.fix.state == ndt::State::predicted || sweep.fix.state == ndt::State::lost;
     sweep.complete = true;
     sweep.times = {1, 1'000'000, 1'100'000, 1'600'000 + static_cast<std::int64_t>(2e5 * wave)};
+    result.tally.add(sweep);
     result.sweeps.push_back(sweep);
     for (const auto& [stage, median_ns] : {std::pair{platform::Stage::decode, 9e4},
                                            {platform::Stage::filter, 2e5},

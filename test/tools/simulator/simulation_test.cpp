@@ -17,7 +17,7 @@
 namespace landfix::tools::simulator {
 namespace {
 
-const std::vector<std::string> kFiles{"capture.pcap", "truth.tum", "map.pcd", "config.toml"};
+const std::vector<std::string> kFiles{"capture.pcap", "truth.tum", "map.pcd", "config.toml", "odometry.log"};
 
 SimulationSummary write(std::uint64_t seed, const std::filesystem::path& folder) {
   return write_drive(Drive(test::route_of(test::kStreetRoute), seed), folder, [](double) {});
