@@ -39,7 +39,8 @@ class CanDecode : public testing::Test {
     for (int i = 0; i < 1000 && !command.has_ended(); ++i) {
       report.stamp_utc_ns = 1'700'000'000'000'000'000 + i * 20'000'000LL;
       report.x_m = i;
-      (void)bus_.send(encoder.encode(report).all(), 0);
+      const PoseFrames frames = encoder.encode(report);
+      (void)bus_.send(frames.all(), 0);
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     ASSERT_TRUE(command.has_ended());
@@ -73,7 +74,7 @@ TEST_F(CanDecode, EndsAfterATimeAndOnCtrlC) {
   EXPECT_THAT(text_of(out_), HasSubstr("poses in"));
 
   test::Background endless(LANDFIX_PROGRAM " can decode vcan0 2>" + out_.string());
-  std::this_thread::sleep_for(std::chrono::seconds(1));
+  std::this_thread::sleep_for(std::chrono::seconds(3));  // until it surely listens
   endless.stop();
   EXPECT_EQ(endless.exit_code(), 1);
   EXPECT_THAT(text_of(out_), HasSubstr("no pose at base id 0x3A0 among 0 frames"));

@@ -34,8 +34,8 @@ class Daemon : public testing::Test {
     directory_ = std::make_unique<test::TemporaryDirectory>();
     test::run(LANDFIX_PROGRAM " simulate --route circuit --length 60 --sensor vlp16 --output " + path("") +
               " >" + path("simulate.out"));
-    test::run(LANDFIX_PROGRAM " map --pcd " + path("map.pcd") + " --resolution 1 --output " +
-              path("map.ndt") + " >" + path("map.out"));
+    test::run(LANDFIX_PROGRAM " map --pcd " + path("map.pcd") +
+              " --resolution 1 --capacity 400000 --output " + path("map.ndt") + " >" + path("map.out"));
     test::run("sed -i '/^\\[sensor\\]/a address = \"127.0.0.9\"' " + path("config.toml"));
     std::ofstream(path("config.toml"), std::ios::app)
         << "\n[can]\ninterface = \"vcan0\"\nrate_hz = 20.0\n[metrics]\naddress = \"127.0.0.1:9464\"\n";
@@ -71,7 +71,7 @@ class Daemon : public testing::Test {
 };
 
 TEST_F(Daemon, PublishesOnTheBusAtItsRate) {
-  test::Background dump("candump -L vcan0 >" + path("bus.log"));
+  test::Background dump("stdbuf -oL candump -r 4000000 -L vcan0 >" + path("bus.log"));
   test::Background daemon_process(daemon());
   sleep_s(2.0);
   test::run(play());
@@ -101,7 +101,7 @@ TEST_F(Daemon, ComesBackWithTheInterface) {
   test::run("ip link set vcan0 down");
   sleep_s(0.5);
   test::run("ip link set vcan0 up");
-  test::Background dump("candump -L vcan0 >" + path("bus.log"));
+  test::Background dump("stdbuf -oL candump -r 4000000 -L vcan0 >" + path("bus.log"));
   sleep_s(1.2);
   dump.stop();
   daemon_process.stop();
@@ -113,12 +113,18 @@ TEST_F(Daemon, UsesTheOdometryOfTheBus) {
   test::Background daemon_process(daemon());
   sleep_s(1.0);
   test::Background odometry("canplayer vcan0=can0 -I " + path("odometry.log"));
-  test::run(play());
-  test::run(LANDFIX_PROGRAM " top --once --json >" + path("top.json"));
+  test::Background player(play());
+  nlohmann::json status;
+  bool is_believed = false;
+  while (!is_believed && !player.has_ended()) {
+    sleep_s(0.5);
+    test::run(LANDFIX_PROGRAM " top --once --json >" + path("top.json"));
+    status = nlohmann::json::parse(text_of(path("top.json")));
+    is_believed = status["odometry"]["speed_believed"];
+  }
   daemon_process.stop();
-  const nlohmann::json status = nlohmann::json::parse(text_of(path("top.json")));
-  EXPECT_GT(status["odometry"]["samples"], 100) << status.dump(1);
-  EXPECT_TRUE(status["odometry"]["speed_believed"]) << status.dump(1);
+  EXPECT_TRUE(is_believed) << status.dump(1);
+  EXPECT_GT(status["odometry"]["samples"], 50) << status.dump(1);
 }
 
 }  // namespace
