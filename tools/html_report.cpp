@@ -114,7 +114,8 @@ enum class Mood : std::uint8_t { plain, good, bad };
                                    const std::vector<platform::LatencyDistribution>& stages) {
   const ReplayResult& result = report.replay.result;
   const double sweeps = static_cast<double>(std::max<std::size_t>(result.sweeps.size(), 1));
-  const double tracked_percent = 100.0 * static_cast<double>(result.tally.count(ndt::State::tracking)) / sweeps;
+  const double tracked_percent =
+      100.0 * static_cast<double>(result.tally.count(ndt::State::tracking)) / sweeps;
   std::string tiles = tile(fmt::format("{}", result.sweeps.size() - result.tally.missing()), "sweeps");
   tiles += tile(fmt::format("{:.1f} %", tracked_percent), "tracking");
   tiles += zero_is_good(result.tally.count(ndt::State::lost), "lost");

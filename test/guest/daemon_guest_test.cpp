@@ -32,7 +32,7 @@ class Daemon : public testing::Test {
   static void SetUpTestSuite() {
     if (SocketCan("vcan0", false).status().state == BusState::missing) return;
     directory_ = std::make_unique<test::TemporaryDirectory>();
-    test::run(LANDFIX_PROGRAM " simulate --route circuit --length 60 --sensor vlp16 --output " + path("") +
+    test::run(LANDFIX_PROGRAM " simulate --route circuit --length 110 --sensor vlp16 --output " + path("") +
               " >" + path("simulate.out"));
     test::run(LANDFIX_PROGRAM " map --pcd " + path("map.pcd") +
               " --resolution 1 --capacity 400000 --output " + path("map.ndt") + " >" + path("map.out"));

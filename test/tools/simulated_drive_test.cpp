@@ -364,7 +364,8 @@ TEST_F(SimulatedDrive, MissingSweepsArePredicted) {
 
 TEST_F(SimulatedDrive, ASilentSensorIsNoDataAfterASecond) {
   const ReplayResult result = replay_with_silence(path(""), 3.0);
-  // Twice a second where a clock goes on; here it is the packets' times that do, and the next comes at the end.
+  // Twice a second where a clock goes on; here it is the packets' times that do, and the next comes at the
+  // end.
   EXPECT_EQ(result.tally.count(ndt::State::no_data), 1U);
   std::size_t predicted = 0;
   for (const platform::SweepResult& sweep : result.sweeps) {

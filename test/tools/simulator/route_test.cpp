@@ -115,8 +115,8 @@ TEST(Route, IsReadFromAFile) {
 }
 
 TEST(Route, AnUnknownNameListsTheKnownOnes) {
-  EXPECT_THAT([] { (void)load_route("Z"); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("A, B, C, circuit, city, field, street, tunnel")));
+  EXPECT_THAT([] { (void)load_route("Z"); }, ThrowsMessage<std::invalid_argument>(
+                                                 HasSubstr("A, B, C, circuit, city, field, street, tunnel")));
 }
 
 TEST(Route, CanBeShortenedButNotStretched) {
