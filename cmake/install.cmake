@@ -2,9 +2,6 @@
 # in /etc), which is what a vehicle installs.
 include(GNUInstallDirs)
 
-if(TARGET landfixd)
-  install(TARGETS landfixd)
-endif()
 install(FILES config/landfixd.service DESTINATION lib/systemd/system)
 install(FILES config/landfix.toml DESTINATION ${CMAKE_INSTALL_SYSCONFDIR}/landfix)
 install(FILES config/landfix.dbc DESTINATION ${CMAKE_INSTALL_DATADIR}/landfix)

@@ -37,7 +37,7 @@ std::vector<ThreadBudget> threads_of(const Configuration& configuration, double 
   return {row("rx", realtime.rx, kRxWakes_ms, "receives packets"),
           row("solve", realtime.solve, 1e3 / sweeps_per_s, "decodes, filters, matches"),
           row("tx", realtime.tx, 1e3 / configuration.can.rate_hz, "sends poses"),
-          {"house", 0, -1, kOrdinaryStack_bytes, 0.0, "status, metrics, watchdog"},
+          {"house", 0, -1, kOrdinaryStack_bytes, 0.0, "status, log, watchdog"},
           {"loader", 0, -1, kOrdinaryStack_bytes, 0.0, "loads map tiles"}};
 }
 

@@ -44,14 +44,12 @@ class FrameSource {
   FrameSource() = default;
   FrameSource(const FrameSource&) = delete;
   FrameSource& operator=(const FrameSource&) = delete;
+  virtual ~FrameSource() = default;
 
   /// The next frame, if one has come by `now_utc_ns`. Never waits.
   [[nodiscard]] virtual bool next(StampedFrame& frame, std::int64_t now_utc_ns) noexcept = 0;
   /// To be called every 100 ms or more often: what the source has to see to. Never waits.
   virtual void maintain(std::int64_t /*monotonic_ns*/) noexcept {}
-
- protected:
-  ~FrameSource() = default;
 };
 
 /// Frames of a log, each when its time has come.

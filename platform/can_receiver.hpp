@@ -24,6 +24,7 @@ class CanReceiver final : public FrameSource {
   /// is such an interface, `state` says.
   CanReceiver(std::string_view interface, std::span<const CanId> ids,
               const CanSystem& system = linux_can()) noexcept;
+  ~CanReceiver() override;  // the first virtual one: where it is defined the compiler puts what deletes
 
   /// The next frame; false if there is none now. Never waits.
   [[nodiscard]] bool receive(CanFrame& frame, std::int64_t& stamp_utc_ns) noexcept;

@@ -47,7 +47,7 @@ class LineReader {
     blanks();
     const std::size_t size = std::min(rest_.find_first_of(" \t:|@(),[]\""), rest_.size());
     if (size == 0) wrong();
-    const std::string word(rest_.substr(0, size));
+    std::string word(rest_.substr(0, size));
     rest_.remove_prefix(size);
     return word;
   }
@@ -65,7 +65,7 @@ class LineReader {
     expect('"');
     const std::size_t end = rest_.find('"');
     if (end == std::string_view::npos) wrong();
-    const std::string text(rest_.substr(0, end));
+    std::string text(rest_.substr(0, end));
     rest_.remove_prefix(end + 1);
     return text;
   }

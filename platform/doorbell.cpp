@@ -13,7 +13,7 @@ namespace landfix::platform {
 void Doorbell::ring() noexcept {
   constexpr std::uint64_t kOne = 1;
   // Refused only where the count is at its end, and then the other is awake already.
-  (void)!::write(event_.number(), &kOne, sizeof kOne);
+  [[maybe_unused]] const ssize_t written = ::write(event_.number(), &kOne, sizeof kOne);
 }
 
 void Doorbell::wait(std::int64_t deadline_mono_ns) noexcept {
@@ -23,7 +23,7 @@ void Doorbell::wait(std::int64_t deadline_mono_ns) noexcept {
   pollfd watched{.fd = event_.number(), .events = POLLIN, .revents = 0};
   if (::ppoll(&watched, 1, &left, nullptr) <= 0) return;
   std::uint64_t rings = 0;
-  (void)!::read(event_.number(), &rings, sizeof rings);
+  [[maybe_unused]] const ssize_t read = ::read(event_.number(), &rings, sizeof rings);
 }
 
 }  // namespace landfix::platform

@@ -1,6 +1,7 @@
 #include "platform/engine.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 #include "platform/monotonic_clock.hpp"
 #include "platform/realtime.hpp"
@@ -12,15 +13,24 @@
 namespace landfix::platform {
 
 struct EngineParts {
-  EngineParts(const EngineSettings& engine_settings, const drivers::AnyDecoder& decoder,
-              const ndt::VoxelMap& map, MapWindow* window, PacketReceiver& receiver, FrameSink* bus,
-              FrameSource* odometry)
-      : settings(engine_settings),
+  EngineParts(EngineSettings engine_settings, const drivers::AnyDecoder& decoder, const ndt::VoxelMap& map,
+              MapWindow* window, PacketReceiver& receiver, FrameSink* bus, FrameSource* odometry)
+      : settings(std::move(engine_settings)),
         links(settings.mode, settings.slot_bytes, settings.slots),
         pipeline(settings.pipeline, decoder, map, nullptr, window),
         receive(links, receiver),
         solve(links, pipeline, odometry, settings.deadline_ns),
         send(links, settings.pipeline.publish, settings.rate_hz, bus) {}
+  /// Threads that have begun, where the next could not, end too.
+  ~EngineParts() { tell_to_stop(); }
+  EngineParts(const EngineParts&) = delete;
+  EngineParts& operator=(const EngineParts&) = delete;
+
+  void tell_to_stop() noexcept {
+    links.stop.store(true, std::memory_order_relaxed);
+    links.packets_bell.ring();
+    links.fixes_bell.ring();
+  }
 
   EngineSettings settings;
   EngineLinks links;
@@ -68,9 +78,9 @@ RunningEngine::RunningEngine(Engine&& ready) : parts_(std::move(ready.parts_)) {
     if (const Missing missing = lock_memory()) parts.missing.push_back(*missing);
   }
   // The last on the way of a packet first, so that nothing waits for a thread that is not there.
-  begin_thread(parts, "landfix-tx", realtime.tx, false, parts.send);
-  begin_thread(parts, "landfix-solve", realtime.solve, true, parts.solve);
-  begin_thread(parts, "landfix-rx", realtime.rx, false, parts.receive);
+  begin_thread(parts, "tx", realtime.tx, false, parts.send);
+  begin_thread(parts, "solve", realtime.solve, true, parts.solve);
+  begin_thread(parts, "rx", realtime.rx, false, parts.receive);
   if (realtime.mode == RealtimeMode::required && !parts.missing.empty()) {
     stop();
     throw std::runtime_error("[realtime] mode = \"required\", but " + parts.missing.front());
@@ -98,9 +108,7 @@ bool RunningEngine::has_ended() const noexcept {
 ReceiveStatus RunningEngine::ending() const noexcept { return parts_->receive.ending(); }
 
 void RunningEngine::stop() noexcept {
-  parts_->links.stop.store(true, std::memory_order_relaxed);
-  parts_->links.packets_bell.ring();
-  parts_->links.fixes_bell.ring();
+  parts_->tell_to_stop();
   parts_->threads.clear();
 }
 

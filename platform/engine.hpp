@@ -47,6 +47,8 @@ class Engine {
   Engine(const EngineSettings& settings, const drivers::AnyDecoder& decoder, const ndt::VoxelMap& map,
          MapWindow* window, PacketReceiver& receiver, FrameSink* bus, FrameSource* odometry = nullptr);
   ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
 
  private:
   friend class RunningEngine;

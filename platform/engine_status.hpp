@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,8 +58,6 @@ struct EngineStatus {
   double score = 0.0;  ///< 0 to 1
   int iterations = 0;
   std::uint64_t points = 0;  ///< after the filter
-  /// The receiver's clock less the sensor's, where it sends one that is of the same kind.
-  std::optional<double> time_offset_s;
 
   // Since the start.
   std::uint64_t packets = 0;  ///< taken

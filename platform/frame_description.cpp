@@ -49,7 +49,8 @@ std::string start_value(const Signal& signal) {
 /// Without an exponent: not every reader of DBC files takes one.
 std::string decimal(double value) {
   std::array<char, 64> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed).ptr;
+  char* const end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed).ptr;
   return {text.data(), end};
 }
 

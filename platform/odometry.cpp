@@ -81,7 +81,9 @@ void Odometry::add(const CanFrame& frame, std::int64_t stamp_utc_ns) noexcept {
 
 std::optional<double> Odometry::latest(OdometryRole role, std::int64_t stamp_utc_ns) const noexcept {
   const Latest& value = latest_[static_cast<std::size_t>(role)];
-  if (!value.any || stamp_utc_ns - value.stamp_utc_ns > value.timeout_ns) return std::nullopt;
+  constexpr std::int64_t kClockWasSet_ns = 500'000'000;  // back, since it was told
+  const std::int64_t age_ns = stamp_utc_ns - value.stamp_utc_ns;
+  if (!value.any || age_ns > value.timeout_ns || age_ns < -kClockWasSet_ns) return std::nullopt;
   return value.value;
 }
 
@@ -162,9 +164,9 @@ void Odometry::compare(std::int64_t from_utc_ns, std::int64_t to_utc_ns,
                        const ndt::Velocity& matched) noexcept {
   const auto compare_one = [&](OdometryChannel& channel, double matched_value) {
     // The mean over the sweep, by five times in it.
-    constexpr int kParts = 5;
+    constexpr std::int64_t kParts = 5;
     double sum = 0.0;
-    for (int part = 0; part < kParts; ++part) {
+    for (std::int64_t part = 0; part < kParts; ++part) {
       const auto value = channel.at(from_utc_ns + (to_utc_ns - from_utc_ns) * (2 * part + 1) / (2 * kParts));
       if (!value) {
         channel.miss();
@@ -173,7 +175,7 @@ void Odometry::compare(std::int64_t from_utc_ns, std::int64_t to_utc_ns,
       }
       sum += *value;
     }
-    channel.compare(sum / kParts, matched_value);
+    channel.compare(sum / static_cast<double>(kParts), matched_value);
   };
   if (settings_.count == 0) return;
   compare_one(speed_, matched[0]);

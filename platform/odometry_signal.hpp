@@ -1,5 +1,5 @@
 // One value in a frame of the vehicle's bus: where its bits are, in either byte order, and what they mean.
-// What the vehicles of the road send differs in everything (CAN.md), so all of it is data.
+// What the vehicles of the road send differs in everything, so all of it is data.
 #pragma once
 
 #include <array>

@@ -59,6 +59,7 @@ std::optional<SweepResult> Pipeline::predict_missing(std::int64_t now_utc_ns) no
 /// Else its points, of long ago, would be matched when the sensor speaks again, and published as the newest.
 void Pipeline::drop_begun_sweep() noexcept {
   if (!decoder_.flush(sweeps_)) return;
+  times_ = {};
   filter_.clear();
   is_filtering_ = false;
   filter_ns_ = 0;
@@ -108,13 +109,13 @@ SweepResult Pipeline::localize(const drivers::Sweep& sweep, const SweepOrders& o
   check_odometry(fix);
   seen_utc_ns_ = sweep.end_utc_ns();
   time_source_ = sweep.time_source();
-  const SweepResult result{.fix = fix,
-                           .seen_utc_ns = seen_utc_ns_,
-                           .skipped = orders.skip_match,
-                           .points_filtered = points_m.size(),
-                           .complete = sweep.complete(),
-                           .time_source = sweep.time_source(),
-                           .times = std::exchange(times_, {})};
+  SweepResult result{.fix = fix,
+                     .seen_utc_ns = seen_utc_ns_,
+                     .skipped = orders.skip_match,
+                     .points_filtered = points_m.size(),
+                     .complete = sweep.complete(),
+                     .time_source = sweep.time_source(),
+                     .times = std::exchange(times_, {})};
   publish(result);
   record(Stage::publish, monotonic_ns() - result.times.matched_ns);
   counters_.points_overflowed += sweep.overflowed();

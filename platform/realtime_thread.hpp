@@ -17,7 +17,7 @@
 
 namespace landfix::platform {
 
-inline constexpr std::size_t kRealtimeStack_bytes = 256 * 1024;
+inline constexpr std::size_t kRealtimeStack_bytes = std::size_t{256} * 1024;
 
 struct RealtimeThreadSettings {
   std::string name;  ///< at most 15 characters; seen in `top -H`

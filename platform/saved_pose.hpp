@@ -14,7 +14,7 @@ struct SavedPose {
 };
 
 /// Replaces the file as a whole. Throws std::runtime_error with the path and the reason, the old one left.
-void save_pose(const std::filesystem::path& path, const SavedPose& pose);
+void save_pose(const std::filesystem::path& path, const SavedPose& saved);
 
 /// Throws std::runtime_error with the path and the reason: absent, or not such a file.
 [[nodiscard]] SavedPose read_saved_pose(const std::filesystem::path& path);

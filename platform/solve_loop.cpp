@@ -14,7 +14,8 @@ void SolveLoop::run() noexcept {
     if (is_last_look) break;
     wait();
   }
-  if (const auto result = pipeline_.finish()) pass_on(*result, last_arrived_mono_ns_);
+  if (const auto result = pipeline_.finish()) take(*result, last_arrived_mono_ns_);
+  publish_status();  // with the packets since the last sweep
   watch_.end();
   links_.fixes_ended.store(true, std::memory_order_release);
   links_.fixes_bell.ring();
@@ -33,11 +34,16 @@ bool SolveLoop::solve_packet() noexcept {
   if (!result) return true;
   packets_of_last_sweep_ = packets_of_sweep_;
   packets_of_sweep_ = 0;
-  ++counters_.sweeps;
-  if (result->skipped) ++counters_.sweeps_skipped;
-  if (result->fix.match.out_of_time) ++counters_.deadline_misses;
-  pass_on(*result, header.arrived_mono_ns);
+  take(*result, header.arrived_mono_ns);
   return true;
+}
+
+/// A sweep that has come.
+void SolveLoop::take(const SweepResult& result, std::int64_t arrived_mono_ns) noexcept {
+  ++counters_.sweeps;
+  if (result.skipped) ++counters_.sweeps_skipped;
+  if (result.fix.match.out_of_time) ++counters_.deadline_misses;
+  pass_on(result, arrived_mono_ns);
 }
 
 SweepOrders SolveLoop::orders(const PacketHeader& header) noexcept {
@@ -111,19 +117,23 @@ void SolveLoop::push(Ring& ring, const SolvedSweep& sweep) noexcept {
 }
 
 void SolveLoop::pass_on(const SweepResult& result, std::int64_t arrived_mono_ns) noexcept {
-  const SolvedSweep sweep{.result = result, .arrived_mono_ns = arrived_mono_ns};
+  last_ = {.result = result, .arrived_mono_ns = arrived_mono_ns};
   last_stamp_utc_ns_ = result.fix.at.stamp_utc_ns;
   last_arrived_mono_ns_ = arrived_mono_ns;
-  push(links_.fixes, sweep);
+  push(links_.fixes, last_);
   links_.fixes_bell.ring();
-  push(links_.sweeps, sweep);
-  links_.status.back() = {.last = sweep,
+  push(links_.sweeps, last_);
+  publish_status();
+  watch_.look();
+}
+
+void SolveLoop::publish_status() noexcept {
+  links_.status.back() = {.last = last_,
                           .counters = counters_,
                           .pipeline = pipeline_.counters(),
                           .stream = pipeline_.stream_counters(),
                           .odometry = pipeline_.odometry().status()};
   links_.status.publish();
-  watch_.look();
 }
 
 }  // namespace landfix::platform

@@ -31,6 +31,8 @@ class SolveLoop {
   void predict_until(std::int64_t now_utc_ns) noexcept;
   void wait() noexcept;
   void say_that_none_came(std::int64_t now_utc_ns) noexcept;
+  void take(const SweepResult& result, std::int64_t arrived_mono_ns) noexcept;
+  void publish_status() noexcept;
   void pass_on(const SweepResult& result, std::int64_t arrived_mono_ns) noexcept;
   [[nodiscard]] SweepOrders orders(const PacketHeader& header) noexcept;
   template <class Ring>
@@ -44,6 +46,7 @@ class SolveLoop {
   LatencyHistogram kernel_receive_;
   LatencyHistogram ring_wait_;
   SolveCounters counters_;
+  SolvedSweep last_;
   std::size_t packets_of_sweep_ = 0;       ///< of the current one, so far
   std::size_t packets_of_last_sweep_ = 0;  ///< 0: there is none yet
   std::int64_t odometry_due_ns_ = 0;

@@ -12,6 +12,7 @@
 #include "platform/engine.hpp"
 #include "platform/map_loader.hpp"
 #include "platform/monotonic_clock.hpp"
+#include "platform/realtime.hpp"
 #include "platform/saved_pose.hpp"
 #include "platform/service_notifier.hpp"
 #include "platform/socket_can.hpp"
@@ -46,23 +47,32 @@ class Signals {
   sigset_t set_{};
 };
 
-/// The last good pose of the run before, in place of the configuration's, if it is of the same map.
-void resume(ReplaySetup& setup) {
+/// The last good pose of the run before, if it is of this map.
+[[nodiscard]] std::optional<ndt::Pose> pose_to_resume(const ReplaySetup& setup) {
   const std::filesystem::path& path = setup.configuration.initial_pose.resume;
-  if (path.empty() || !std::filesystem::exists(path)) return;
+  if (path.empty() || !std::filesystem::exists(path)) return std::nullopt;
   try {
     const platform::SavedPose saved = platform::read_saved_pose(path);
     if (saved.map_checksum != setup.map_checksum()) {
       log_line(Severity::notice, fmt::format("{}: is of another map; not resumed", path.string()));
-      return;
+      return std::nullopt;
     }
-    setup.settings.initial_pose = saved.at.pose;
     const Eigen::Vector3d& place_m = saved.at.pose.translation();
     log_line(Severity::info, fmt::format("resuming at {:.2f} {:.2f} {:.2f}, as kept in {}", place_m.x(),
                                          place_m.y(), place_m.z(), path.string()));
+    return saved.at.pose;
   } catch (const std::exception& error) {
     log_line(Severity::warning, fmt::format("not resumed: {}", error.what()));
+    return std::nullopt;
   }
+}
+
+/// What lies around the initial pose is chosen by it: for a resumed one, all anew.
+[[nodiscard]] ReplaySetup prepare(const std::filesystem::path& config) {
+  ReplaySetup setup = prepare_replay({.config = config});
+  const std::optional<ndt::Pose> resumed = pose_to_resume(setup);
+  if (!resumed) return setup;
+  return prepare_replay({.config = config, .initial_pose = resumed});
 }
 
 [[nodiscard]] std::vector<platform::CanId> ids_of(const platform::OdometrySettings& odometry) {
@@ -93,8 +103,8 @@ void keep_house(House& house, const Signals& signals) {
 void run_daemon(const std::filesystem::path& config) {
   const Signals signals;
   const platform::ServiceNotifier notifier;
-  ReplaySetup setup = prepare_replay({.config = config});
-  resume(setup);
+  platform::keep_heap_pages();
+  const ReplaySetup setup = prepare(config);
   platform::UdpReceiver receiver(platform::udp_settings(setup.configuration.sensor, setup.model));
   for (const std::string& warning : receiver.warnings()) log_line(Severity::warning, warning);
   platform::SocketCan bus(setup.configuration.can.interface, setup.configuration.can.fd);

@@ -175,7 +175,7 @@ HostCheck check_can_queue(const Host& host) {
   const auto length = read_host_number(host.root / "sys/class/net" / name / "tx_queue_len");
   if (!length) return unknown("CAN queue", name);
   return judge("CAN queue", *length >= kTwoPoses, fmt::format("{} frames", *length),
-               fmt::format("ip link set {} txqueuelen 100", name));
+               fmt::format("ip link set {} txqueuelen 16", name));
 }
 
 /// The cores that take the interrupts of the Ethernet to the sensor: none that a real-time thread is bound

@@ -1,13 +1,29 @@
 #include <exception>
+#include <stdexcept>
 #include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "platform/configuration.hpp"
 #include "tools/command.hpp"
 #include "tools/daemon.hpp"
 #include "tools/daemon_check.hpp"
 #include "tools/journal.hpp"
+
+namespace {
+
+/// One that cannot be used ends with 2, after which systemd does not try again; whatever else is missing,
+/// with 1.
+void require_usable(const std::string& config) {
+  try {
+    (void)landfix::platform::read_configuration(config);
+  } catch (const std::runtime_error& error) {
+    throw landfix::tools::UsageError(error.what());
+  }
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace landfix::tools;
@@ -23,11 +39,11 @@ int main(int argc, char** argv) {
   app.add_option("--config", config, "configuration (landfix.toml explains every key)")
       ->type_name("FILE")
       ->required();
-  app.add_flag(
+  CLI::Option* const check = app.add_flag(
       "--check", only_check,
       "read the configuration, the map and the calibration, print the budget of threads, memory and rates, "
       "and end");
-  app.add_flag("--json", json, "with --check: as one JSON object");
+  app.add_flag("--json", json, "with --check: as one JSON object")->needs(check);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version
@@ -37,6 +53,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
+    require_usable(config);
     if (only_check) {
       fmt::print("{}", check_daemon(config, json));
     } else {

@@ -107,9 +107,6 @@ void add_pose(Metrics& metrics, const platform::EngineStatus& status) {
                 "Likelihood of the last match as a share of the best there can be.");
   metrics.gauge("scan_points", static_cast<double>(status.points),
                 "Points of the last sweep after the filter.");
-  if (status.time_offset_s) {
-    metrics.gauge("time_offset_seconds", *status.time_offset_s, "The receiver's clock less the sensor's.");
-  }
 }
 
 void add_counters(Metrics& metrics, const platform::EngineStatus& status) {

@@ -156,7 +156,7 @@ struct Seams {
   std::optional<platform::MapLoader> loader;  // after the memory was locked: its stack need not be
   if (setup.window) loader.emplace(*setup.window);
   std::size_t sweeps = 0;
-  return run_engine(
+  ReplayResult result = run_engine(
       engine, receiver.counters(), keep_sweeps,
       {.on_sweep =
            [&](const platform::SolvedSweep& sweep) {
@@ -167,6 +167,8 @@ struct Seams {
            [&](const platform::SentSweep& sent) {
              if (seams.trace != nullptr) seams.trace->add(sent);
            }});
+  warn_of_losses(capture.string(), receiver.source().counters());
+  return result;
 }
 
 [[nodiscard]] std::vector<platform::StampedFrame> read_odometry(const Arguments& arguments,

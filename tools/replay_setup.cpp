@@ -6,10 +6,10 @@
 #include <system_error>
 #include <utility>
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
 
 #include "drivers/make_decoder.hpp"
+#include "platform/ipv4.hpp"
 #include "platform/map_projector_info.hpp"
 #include "tools/command.hpp"
 #include "tools/input_files.hpp"
@@ -25,13 +25,6 @@ namespace {
   return drivers::make_decoder(model, options, load_calibration(model, sensor.calibration));
 }
 
-/// Host byte order; 0 where there is none. The configuration has checked what there is.
-[[nodiscard]] std::uint32_t ipv4_of(const std::string& text) {
-  in_addr address{};
-  if (!text.empty()) ::inet_pton(AF_INET, text.c_str(), &address);
-  return ntohl(address.s_addr);
-}
-
 [[nodiscard]] platform::PipelineSettings settings_for(const platform::Configuration& configuration,
                                                       const drivers::SensorModel& model,
                                                       const ReplayInput& input) {
@@ -42,7 +35,7 @@ namespace {
   platform::PipelineSettings settings{
       .port = configuration.sensor.port != 0 ? configuration.sensor.port : model.data_port,
       .telemetry_port = model.telemetry_port,
-      .sensor_address = ipv4_of(configuration.sensor.address),
+      .sensor_address = platform::parse_ipv4(configuration.sensor.address).value_or(0),
       .longest_period_ns = 1'000'000'000 / model.rotation_hz[0],
       .sensor_pose = configuration.vehicle.sensor_pose,
       .filter = configuration.filter,

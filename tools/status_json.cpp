@@ -18,7 +18,6 @@ nlohmann::ordered_json to_json(const platform::EngineStatus& status) {
   object["state"] = ndt::to_string(status.state);
   object["stamp_utc_ns"] = status.stamp_utc_ns;
   object["time_source"] = to_string(status.time_source);
-  object["time_offset_s"] = status.time_offset_s ? ordered_json(*status.time_offset_s) : ordered_json();
   object["pose"] = pose_to_json(status.pose);
   object["speed_mps"] = status.speed_mps;
   object["sigma_m"] = {{"along", status.sigma_along_m}, {"cross", status.sigma_cross_m}};

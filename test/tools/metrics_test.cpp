@@ -139,9 +139,6 @@ TEST(Metrics, AreWhatPrometheusReads) {
 
 TEST(Metrics, LeaveOutWhatIsNotKnown) {
   platform::EngineStatus status = some_status();
-  EXPECT_EQ(to_prometheus(status).find("time_offset"), std::string::npos);
-  status.time_offset_s = -0.5;
-  EXPECT_THAT(to_prometheus(status), HasSubstr("landfix_time_offset_seconds -0.5\n"));
   status.heap_is_counted = false;
   EXPECT_EQ(to_prometheus(status).find("heap_allocations"), std::string::npos);
   status.score = std::nan("");

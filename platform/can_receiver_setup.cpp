@@ -1,0 +1,7 @@
+#include "platform/can_receiver.hpp"
+
+namespace landfix::platform {
+
+CanReceiver::~CanReceiver() = default;
+
+}  // namespace landfix::platform
