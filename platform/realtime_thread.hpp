@@ -17,7 +17,11 @@
 
 namespace landfix::platform {
 
+#ifdef __SANITIZE_THREAD__  // which keeps near 1 MB of its own on every stack
+inline constexpr std::size_t kRealtimeStack_bytes = std::size_t{4} << 20;
+#else
 inline constexpr std::size_t kRealtimeStack_bytes = std::size_t{256} * 1024;
+#endif
 
 struct RealtimeThreadSettings {
   std::string name;  ///< at most 15 characters; seen in `top -H`
