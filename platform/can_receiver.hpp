@@ -25,6 +25,8 @@ class CanReceiver final : public FrameSource {
   CanReceiver(std::string_view interface, std::span<const CanId> ids,
               const CanSystem& system = linux_can()) noexcept;
   ~CanReceiver() override;  // the first virtual one: where it is defined the compiler puts what deletes
+  CanReceiver(const CanReceiver&) = delete;
+  CanReceiver& operator=(const CanReceiver&) = delete;
 
   /// The next frame; false if there is none now. Never waits.
   [[nodiscard]] bool receive(CanFrame& frame, std::int64_t& stamp_utc_ns) noexcept;

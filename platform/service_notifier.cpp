@@ -45,12 +45,20 @@ ServiceNotifier::ServiceNotifier()
     : is_listened_to_(LANDFIX_HAS_SYSTEMD && std::getenv("NOTIFY_SOCKET") != nullptr),
       alive_period_ns_(is_listened_to_ ? half_of_watchdog_ns() : std::nullopt) {}
 
-void ServiceNotifier::ready(std::string_view status) const { send("READY=1\n" + status_line(status)); }
+void ServiceNotifier::ready(std::string_view status) const {
+  if (is_listened_to_) send("READY=1\n" + status_line(status));
+}
 
-void ServiceNotifier::status(std::string_view status) const { send(status_line(status)); }
+void ServiceNotifier::status(std::string_view status) const {
+  if (is_listened_to_) send(status_line(status));
+}
 
-void ServiceNotifier::alive() const { send("WATCHDOG=1"); }
+void ServiceNotifier::alive() const {
+  if (is_listened_to_) send("WATCHDOG=1");
+}
 
-void ServiceNotifier::stopping(std::string_view status) const { send("STOPPING=1\n" + status_line(status)); }
+void ServiceNotifier::stopping(std::string_view status) const {
+  if (is_listened_to_) send("STOPPING=1\n" + status_line(status));
+}
 
 }  // namespace landfix::platform

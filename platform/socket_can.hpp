@@ -22,6 +22,8 @@ class SocketCan final : public FrameSink {
   /// `fd`: frames of CAN FD may come. Whether there is such an interface, `status` says.
   SocketCan(std::string_view interface, bool fd, const CanSystem& system = linux_can()) noexcept;
   ~SocketCan() override;  // the first virtual one: where it is defined the compiler puts what deletes
+  SocketCan(const SocketCan&) = delete;
+  SocketCan& operator=(const SocketCan&) = delete;
 
   /// The time is not needed: the bus has its own.
   [[nodiscard]] std::size_t send(std::span<const CanFrame> group,

@@ -39,6 +39,8 @@ class UdpReceiver final : public PacketReceiver {
   /// Throws std::runtime_error that says what to do where a socket cannot be had.
   explicit UdpReceiver(const UdpSettings& settings);
   ~UdpReceiver() override;  // the first virtual one: where it is defined the compiler puts what deletes
+  UdpReceiver(const UdpReceiver&) = delete;
+  UdpReceiver& operator=(const UdpReceiver&) = delete;
 
   [[nodiscard]] ReceiveStatus receive(PacketRing& ring, std::int64_t deadline_mono_ns) noexcept override;
   [[nodiscard]] const ReceiveCounters& counters() const noexcept override { return counters_; }

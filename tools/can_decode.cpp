@@ -193,6 +193,7 @@ class StopOnSignal {
 
 [[nodiscard]] std::vector<platform::CanId> ids_of_poses(std::uint32_t base_id) {
   std::vector<platform::CanId> ids;
+  ids.reserve(platform::kFrameLayouts.size());
   for (const platform::FrameLayout& layout : platform::kFrameLayouts)
     ids.push_back({base_id + layout.id_offset});
   return ids;

@@ -27,7 +27,7 @@ std::optional<std::string> read_host_file(const std::filesystem::path& path) {
   std::string text{std::istreambuf_iterator<char>(file), {}};
   if (file.bad()) return std::nullopt;
   const std::size_t end = text.find_last_not_of(" \n\t");
-  text.resize(end == text.npos ? 0 : end + 1);
+  text.resize(end == std::string::npos ? 0 : end + 1);
   return text;
 }
 
@@ -41,7 +41,7 @@ std::optional<std::int64_t> read_host_number(const std::filesystem::path& path) 
 std::string bracketed(std::string_view text) {
   const std::size_t begin = text.find('[');
   const std::size_t end = text.find(']');
-  if (begin == text.npos || end == text.npos || end < begin) return {};
+  if (begin == std::string_view::npos || end == std::string_view::npos || end < begin) return {};
   return std::string(text.substr(begin + 1, end - begin - 1));
 }
 
@@ -53,7 +53,7 @@ std::vector<int> parse_cores(std::string_view list) {
     list.remove_prefix(std::min(comma + 1, list.size()));
     const std::size_t dash = range.find('-');
     const auto first = parse_number<int>(range.substr(0, dash));
-    const auto last = dash == range.npos ? first : parse_number<int>(range.substr(dash + 1));
+    const auto last = dash == std::string_view::npos ? first : parse_number<int>(range.substr(dash + 1));
     if (!first || !last) continue;
     for (int core = std::max(*first, 0); core <= std::min(*last, kMaxCores); ++core) cores.push_back(core);
   }

@@ -10,7 +10,7 @@ namespace landfix::tools {
 
 /// A socket that listens there and does not block. Takes the place of a Unix socket that nobody serves any
 /// more. Throws std::runtime_error with the address and the reason.
-[[nodiscard]] platform::FileDescriptor listen_at(const std::string& address);
+[[nodiscard]] platform::FileDescriptor listen_at(const std::string& text);
 
 /// The port that the kernel chose where port 0 was asked for; 0 of a Unix socket.
 [[nodiscard]] std::uint16_t port_of(const platform::FileDescriptor& listener);

@@ -14,7 +14,7 @@ namespace {
 }  // namespace
 
 TraceWriter::TraceWriter(const std::filesystem::path& path) : file_(path) {
-  file_.write("{\"displayTimeUnit\":\"ns\",\"traceEvents\":[");
+  file_.write(R"({"displayTimeUnit":"ns","traceEvents":[)");
   add_event(R"("ph":"M","name":"process_name","args":{"name":"landfix"})");
   constexpr std::array<std::string_view, kTracks> kNames{"rx", "solve", "tx"};
   for (std::size_t i = 0; i < kTracks; ++i) {
