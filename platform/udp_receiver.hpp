@@ -68,7 +68,7 @@ class UdpReceiver final : public PacketReceiver {
   [[nodiscard]] std::size_t receive(Port& port, PacketRing& ring, bool& has_failed) noexcept;
   [[nodiscard]] Read read(CountedSocket& from, std::size_t count) noexcept;
   [[nodiscard]] std::size_t keep(Port& port, PacketRing& ring, const Read& read) noexcept;
-  void note(CountedSocket& of, const Datagram& datagram) noexcept;
+  static void note(CountedSocket& of, const Datagram& datagram) noexcept;
   void drop_all(CountedSocket& of, const Read& read, RelaxedCounter& counter) noexcept;
   void join_if_silent() noexcept;
 

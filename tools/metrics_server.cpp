@@ -86,7 +86,7 @@ MetricsServer::MetricsServer(const std::string& address)
 
 MetricsServer::~MetricsServer() {
   const std::uint64_t one = 1;
-  (void)!::write(stop_.number(), &one, sizeof(one));
+  [[maybe_unused]] const ssize_t written = ::write(stop_.number(), &one, sizeof(one));
   thread_.reset();
   if (!unix_path_.empty()) ::unlink(unix_path_.c_str());
 }

@@ -32,7 +32,7 @@ class MetricsServer {
  private:
   void serve() noexcept;
   void answer(int client);
-  [[nodiscard]] std::string response_to(const std::string& request);
+  [[nodiscard]] std::string response_to(const std::string& bytes);
 
   std::string unix_path_;  ///< to be removed in the end; empty: none
   platform::FileDescriptor listener_;
