@@ -11,8 +11,15 @@ target_compile_options(landfix_options INTERFACE
   -Wno-psabi) # only ever says that gcc 4.5 passed aligned values another way
 if(LANDFIX_SANITIZE)
   target_compile_options(landfix_options INTERFACE
-    -fsanitize=${LANDFIX_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    -fsanitize=${LANDFIX_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>) # gcc 12 sees phantoms in the standard library's instrumented code
   target_link_options(landfix_options INTERFACE -fsanitize=${LANDFIX_SANITIZE})
+endif()
+
+# Of what is not hot, the time to compile counts, most of all where sanitizers swell the code.
+set(landfix_cold_options -O1)
+if(LANDFIX_SANITIZE)
+  set(landfix_cold_options -O0)
 endif()
 
 if(LANDFIX_FUZZERS)

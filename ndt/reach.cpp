@@ -9,7 +9,7 @@
 namespace landfix::ndt {
 namespace {
 
-constexpr double kFarthest_m = 150.0;
+constexpr double kLongestWay_m = 150.0;
 constexpr double kAcceleration_mps2 = 1.5;
 constexpr double kNear_m = 3.0;
 constexpr double kTightestCurve_m = 6.0;
@@ -68,8 +68,8 @@ Eigen::Vector3d GuessSequence::next(double reach_m) noexcept {
 }
 
 double reach_m(double speed_mps, double duration_s) noexcept {
-  const double t = std::clamp(duration_s, 0.0, kFarthest_m);
-  return std::min(kFarthest_m, kNear_m + t * (std::abs(speed_mps) + 0.5 * kAcceleration_mps2 * t));
+  const double t = std::max(duration_s, 0.0);
+  return std::min(kLongestWay_m, kNear_m + t * (std::abs(speed_mps) + 0.5 * kAcceleration_mps2 * t));
 }
 
 std::optional<double> ground_m(const VoxelMap& map, const Eigen::Vector3d& place_m,
@@ -77,7 +77,7 @@ std::optional<double> ground_m(const VoxelMap& map, const Eigen::Vector3d& place
   const Eigen::Vector3d cells = place_m / map.resolution_m();
   if (!has_cell(cells)) return std::nullopt;
   const Cell cell = cell_of(cells);
-  const auto most = static_cast<std::int32_t>(std::min(within_m, kFarthest_m) / map.resolution_m());
+  const auto most = static_cast<std::int32_t>(std::min(within_m, kLongestWay_m) / map.resolution_m());
   for (std::int32_t away = 0; away <= most; ++away) {
     for (const std::int32_t k : {cell.k - away, cell.k + away}) {
       const Voxel* const voxel = voxel_of(map, {cell.i, cell.j, k});

@@ -16,7 +16,7 @@
 namespace landfix::ndt {
 
 /// A pose, and how many of some points fall into voxels there.
-struct Guess {
+struct RankedGuess {
   Pose pose = Pose::Identity();
   std::size_t hits = 0;
 };

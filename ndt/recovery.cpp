@@ -89,7 +89,7 @@ Sighting Recovery::look(Matcher& matcher, const VoxelMap& map, std::span<const E
   consider(last_seen_ * pose_exp(counted_s_ * last_velocity_));
   if (passed_s_ < kLongestWay_s) consider(last_seen_ * pose_exp(passed_s_ * last_velocity_));
   const Ranked ranked = search(map, points_m, deadline);
-  for (const Guess& guess : std::span(ranked.best).first(ranked.count)) consider(guess.pose);
+  for (const RankedGuess& guess : std::span(ranked.best).first(ranked.count)) consider(guess.pose);
   if (!best) return sighting;
 
   const bool is_better = track_.sweeps == 0 || (likelihood_of(*best) > track_.likelihood + kClearlyBetter &&
@@ -165,7 +165,7 @@ Recovery::Ranked Recovery::search(const VoxelMap& map, std::span<const Eigen::Ve
 }
 
 /// Of neighbours the best alone: they would lead to the same place.
-void Recovery::Ranked::add(const Guess& guess) noexcept {
+void Recovery::Ranked::add(const RankedGuess& guess) noexcept {
   constexpr double kNeighbours_m = 1.5;
   constexpr double kNeighbours_rad = 0.15;
   if (guess.hits == 0 || (count == kMatches && guess.hits <= best[count - 1].hits)) return;

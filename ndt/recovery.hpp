@@ -61,9 +61,9 @@ class Recovery {
   };
   static constexpr std::size_t kMatches = 4;  ///< of the best guesses
   struct Ranked {
-    std::array<Guess, kMatches> best{};
+    std::array<RankedGuess, kMatches> best{};
     std::size_t count = 0;
-    void add(const Guess& guess) noexcept;
+    void add(const RankedGuess& guess) noexcept;
   };
 
   void pass_time(std::int64_t stamp_utc_ns) noexcept;

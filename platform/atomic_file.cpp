@@ -10,14 +10,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "platform/file_error.hpp"
+
 namespace landfix::platform {
-namespace {
-
-[[noreturn]] void fail(const std::filesystem::path& path, std::string_view doing) {
-  throw std::runtime_error(fmt::format("{}: cannot {}: {}", path.string(), doing, std::strerror(errno)));
-}
-
-}  // namespace
+namespace {}  // namespace
 
 AtomicFile::AtomicFile(std::filesystem::path path)
     : path_(std::move(path)), temporary_(path_.string() + ".part" + std::to_string(::getpid())) {

@@ -8,7 +8,9 @@
 #include <sys/socket.h>
 #include <sys/uio.h>
 
+#include "platform/ancillary.hpp"
 #include "platform/can_wire.hpp"
+#include "platform/utc_clock.hpp"
 
 namespace landfix::platform {
 namespace {
@@ -23,13 +25,6 @@ struct Ancillary {
   std::uint32_t overflowed = 0;   ///< frames dropped by this socket until now; 0 also where it is not said
 };
 
-template <class Value>
-[[nodiscard]] Value value_of(const cmsghdr& header) noexcept {
-  Value value{};
-  std::memcpy(&value, CMSG_DATA(&header), sizeof value);
-  return value;
-}
-
 [[nodiscard]] Ancillary ancillary_of(msghdr& message) noexcept {
   Ancillary result;
   for (cmsghdr* header = CMSG_FIRSTHDR(&message); header != nullptr; header = CMSG_NXTHDR(&message, header)) {
@@ -38,12 +33,6 @@ template <class Value>
     if (header->cmsg_type == SO_RXQ_OVFL) result.overflowed = value_of<std::uint32_t>(*header);
   }
   return result;
-}
-
-[[nodiscard]] std::int64_t now_utc_ns() noexcept {
-  timespec now{};
-  ::clock_gettime(CLOCK_REALTIME, &now);
-  return to_ns(now);
 }
 
 }  // namespace
@@ -85,7 +74,7 @@ bool CanReceiver::receive(CanFrame& frame, std::int64_t& stamp_utc_ns) noexcept 
     ++frames_received_;
     port_.worked();
     frame = *received;
-    stamp_utc_ns = ancillary.stamp_utc_ns != 0 ? ancillary.stamp_utc_ns : now_utc_ns();
+    stamp_utc_ns = ancillary.stamp_utc_ns != 0 ? ancillary.stamp_utc_ns : utc_ns();
     return true;
   }
   return false;

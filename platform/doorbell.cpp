@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "platform/monotonic_clock.hpp"
+#include "platform/nanoseconds.hpp"
 
 namespace landfix::platform {
 
@@ -17,7 +18,6 @@ void Doorbell::ring() noexcept {
 }
 
 void Doorbell::wait(std::int64_t deadline_mono_ns) noexcept {
-  constexpr std::int64_t kNs_per_s = 1'000'000'000;
   const std::int64_t left_ns = std::max<std::int64_t>(0, deadline_mono_ns - monotonic_ns());
   const timespec left{.tv_sec = left_ns / kNs_per_s, .tv_nsec = left_ns % kNs_per_s};
   pollfd watched{.fd = event_.number(), .events = POLLIN, .revents = 0};

@@ -105,7 +105,7 @@ LatencyDistribution distribution_of(const LatencyHistogram& histogram, std::stri
 std::string to_hgrm(const LatencyDistribution& distribution) {
   std::string text;
   const auto add = [&text]<class... Values>(fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
+    text += fmt::format(format, std::forward<Values>(values)...);
   };
   add("{:>12} {:>14} {:>10} {:>14}\n\n", "Value", "Percentile", "TotalCount", "1/(1-Percentile)");
   const std::uint64_t all = distribution.count();

@@ -23,7 +23,7 @@ namespace {
   return "Error";
 }
 
-[[nodiscard]] std::string_view take_word(std::string_view& line) {
+[[nodiscard]] std::string_view take_to_space(std::string_view& line) {
   const std::size_t length = std::min(line.find(' '), line.size());
   const std::string_view word = line.substr(0, length);
   line.remove_prefix(std::min(length + 1, line.size()));
@@ -45,8 +45,8 @@ HttpRequest parse_http_request(std::string_view bytes) {
   }
   std::string_view line = bytes.substr(0, end_of_line);
   if (line.ends_with('\r')) line.remove_suffix(1);
-  const std::string_view method = take_word(line);
-  const std::string_view target = take_word(line);
+  const std::string_view method = take_to_space(line);
+  const std::string_view target = take_to_space(line);
   if (!line.starts_with("HTTP/1.") || !target.starts_with('/') || !is_printable(target) || method.empty()) {
     return {HttpVerdict::malformed, {}};
   }

@@ -13,13 +13,10 @@
 #include <unistd.h>
 
 #include "platform/atomic_file.hpp"
+#include "platform/file_error.hpp"
 
 namespace landfix::platform {
 namespace {
-
-[[noreturn]] void fail(const std::filesystem::path& path, std::string_view doing) {
-  throw std::runtime_error(fmt::format("{}: cannot {}: {}", path.string(), doing, std::strerror(errno)));
-}
 
 /// A descriptor for as long as it takes to map it.
 struct Descriptor {

@@ -14,6 +14,8 @@
 #include <fmt/format.h>
 #include <pcap/pcap.h>
 
+#include "platform/nanoseconds.hpp"
+
 namespace landfix::platform {
 namespace {
 
@@ -45,13 +47,12 @@ LinkType link_type(const std::filesystem::path& path, int pcap_type) {
 
 /// Nothing where a damaged time stamp does not fit.
 std::optional<std::int64_t> stamp_utc_ns(const pcap_pkthdr& header) noexcept {
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;
-  constexpr std::int64_t kMaxSeconds = std::numeric_limits<std::int64_t>::max() / kSecond_ns - 1;
+  constexpr std::int64_t kMaxSeconds = std::numeric_limits<std::int64_t>::max() / kNs_per_s - 1;
   const std::int64_t seconds = header.ts.tv_sec;
   const std::int64_t nanoseconds = header.ts.tv_usec;  // so named, but opened with nanosecond precision
-  if (seconds < 0 || seconds > kMaxSeconds || nanoseconds < 0 || nanoseconds >= kSecond_ns)
+  if (seconds < 0 || seconds > kMaxSeconds || nanoseconds < 0 || nanoseconds >= kNs_per_s)
     return std::nullopt;
-  return seconds * kSecond_ns + nanoseconds;
+  return seconds * kNs_per_s + nanoseconds;
 }
 
 /// Whose records do not depend on what came before them, as those of pcapng do. False for what is no regular

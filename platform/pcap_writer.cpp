@@ -9,6 +9,7 @@
 
 #include "platform/big_endian.hpp"
 #include "platform/internet_checksum.hpp"
+#include "platform/nanoseconds.hpp"
 
 namespace landfix::platform {
 namespace {
@@ -21,7 +22,6 @@ constexpr std::size_t kIpv4HeaderBytes = 20;
 constexpr std::size_t kUdpHeaderBytes = 8;
 constexpr std::size_t kMaxPayloadBytes = 65535 - kIpv4HeaderBytes - kUdpHeaderBytes;
 constexpr std::size_t kMinMtuBytes = 68;  // RFC 791
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 /// Big-endian like the packets within: readers tell from the magic number, here that of nanoseconds.
 std::array<std::byte, kFileHeaderBytes> file_header() {
@@ -35,8 +35,8 @@ std::array<std::byte, kFileHeaderBytes> file_header() {
 }
 
 void fill_record_header(std::span<std::byte> header, std::size_t frame_bytes, std::int64_t stamp_utc_ns) {
-  store_be32(header, 0, static_cast<std::uint32_t>(stamp_utc_ns / kSecond_ns));
-  store_be32(header, 4, static_cast<std::uint32_t>(stamp_utc_ns % kSecond_ns));
+  store_be32(header, 0, static_cast<std::uint32_t>(stamp_utc_ns / kNs_per_s));
+  store_be32(header, 4, static_cast<std::uint32_t>(stamp_utc_ns % kNs_per_s));
   store_be32(header, 8, static_cast<std::uint32_t>(frame_bytes));
   store_be32(header, 12, static_cast<std::uint32_t>(frame_bytes));
 }
@@ -90,7 +90,7 @@ void PcapWriter::write(const UdpFlow& flow, std::span<const std::byte> payload, 
     throw std::runtime_error(fmt::format("{}: a payload of {} bytes does not fit a UDP datagram (at most {})",
                                          path_.string(), payload.size(), kMaxPayloadBytes));
   }
-  if (stamp_utc_ns < 0 || stamp_utc_ns / kSecond_ns > 0xFFFFFFFF) {
+  if (stamp_utc_ns < 0 || stamp_utc_ns / kNs_per_s > 0xFFFFFFFF) {
     throw std::runtime_error(
         fmt::format("{}: time {} ns is not within 1970 to 2106, all that a pcap file can hold",
                     path_.string(), stamp_utc_ns));

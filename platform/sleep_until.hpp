@@ -5,10 +5,11 @@
 #include <cstdint>
 #include <ctime>
 
+#include "platform/nanoseconds.hpp"
+
 namespace landfix::platform {
 
 inline void sleep_until(std::int64_t deadline_mono_ns) noexcept {
-  constexpr std::int64_t kNs_per_s = 1'000'000'000;
   const timespec deadline{.tv_sec = deadline_mono_ns / kNs_per_s, .tv_nsec = deadline_mono_ns % kNs_per_s};
   while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {
   }

@@ -12,7 +12,7 @@ constexpr std::int64_t kSilencePeriod_ns = 500'000'000;
 /// Packets may be told a little out of order; what goes back farther is a clock that was set.
 constexpr std::int64_t kSetBack_ns = 500'000'000;
 /// Of silence, ten years: what is longer is no time, and would overflow.
-constexpr std::int64_t kLongest_ns = 315'360'000'000'000'000;
+constexpr std::int64_t kTenYears_ns = 315'360'000'000'000'000;
 
 /// Stamps in a capture may be any number.
 [[nodiscard]] std::int64_t wrapped_difference(std::int64_t a, std::int64_t b) noexcept {
@@ -56,7 +56,7 @@ std::optional<MissingSweep> SweepSchedule::next_missing(std::int64_t now_utc_ns)
   if (!any_) return std::nullopt;
   follow_clock(now_utc_ns);
   const std::int64_t since_ns =
-      std::min(wrapped_difference(now_utc_ns, last_received_utc_ns_), kLongest_ns) - period_ns_ / 2;
+      std::min(wrapped_difference(now_utc_ns, last_received_utc_ns_), kTenYears_ns) - period_ns_ / 2;
   const std::int64_t overdue = since_ns / period_ns_;
   if (overdue <= missing_) return std::nullopt;
 

@@ -11,11 +11,11 @@
 #include <fmt/format.h>
 
 #include "platform/atomic_file.hpp"
+#include "platform/nanoseconds.hpp"
 
 namespace landfix::platform {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::size_t kColumns = 8;
 constexpr std::string_view kLayout = "timestamp tx ty tz qx qy qz qw";
 constexpr std::string_view kBlank = " \t\r";
@@ -134,9 +134,9 @@ std::string format_tum(std::span<const StampedPose> poses) {
     const Eigen::Vector3d t = stamped.pose.translation();
     Eigen::Quaterniond q(stamped.pose.linear());
     if (q.w() < 0.0) q.coeffs() = -q.coeffs();
-    fmt::format_to(std::back_inserter(text), "{}.{:09} {:.6f} {:.6f} {:.6f} {:.9f} {:.9f} {:.9f} {:.9f}\n",
-                   stamped.stamp_utc_ns / kSecond_ns, stamped.stamp_utc_ns % kSecond_ns, t.x(), t.y(), t.z(),
-                   q.x(), q.y(), q.z(), q.w());
+    text += fmt::format("{}.{:09} {:.6f} {:.6f} {:.6f} {:.9f} {:.9f} {:.9f} {:.9f}\n",
+                        stamped.stamp_utc_ns / kNs_per_s, stamped.stamp_utc_ns % kNs_per_s, t.x(), t.y(),
+                        t.z(), q.x(), q.y(), q.z(), q.w());
   }
   return text;
 }

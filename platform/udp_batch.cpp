@@ -3,17 +3,11 @@
 #include <cstring>
 #include <ctime>
 
+#include "platform/ancillary.hpp"
+#include "platform/nanoseconds.hpp"
+
 namespace landfix::platform {
 namespace {
-
-constexpr std::int64_t kNs_per_s = 1'000'000'000;
-
-template <class Value>
-Value value_of(const cmsghdr& control) noexcept {
-  Value value{};
-  std::memcpy(&value, CMSG_DATA(&control), sizeof value);
-  return value;
-}
 
 void read_control(const cmsghdr& control, Datagram& datagram) noexcept {
   if (control.cmsg_level == SOL_SOCKET && control.cmsg_type == SCM_TIMESTAMPNS) {

@@ -9,17 +9,11 @@
 
 #include "platform/monotonic_clock.hpp"
 #include "platform/multicast.hpp"
+#include "platform/nanoseconds.hpp"
+#include "platform/utc_clock.hpp"
 
 namespace landfix::platform {
 namespace {
-
-constexpr std::int64_t kNs_per_s = 1'000'000'000;
-
-[[nodiscard]] std::int64_t utc_ns() noexcept {
-  timespec now{};
-  ::clock_gettime(CLOCK_REALTIME, &now);
-  return now.tv_sec * kNs_per_s + now.tv_nsec;
-}
 
 /// What a socket tells once and then goes on, such as that its interface was down.
 [[nodiscard]] bool passes(int error) noexcept {

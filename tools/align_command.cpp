@@ -19,7 +19,7 @@
 namespace landfix::tools {
 namespace {
 
-struct Arguments {
+struct AlignArguments {
   std::string map;
   std::string scan;
   std::optional<ndt::Pose> guess;
@@ -113,7 +113,7 @@ void print_text(const ndt::MatchResult& result, double fitness_score, double mat
       explain(ndt::judge(result, {})), match_ms);
 }
 
-void align(const Arguments& arguments) {
+void align(const AlignArguments& arguments) {
   const ndt::MapImage image = load_map_file(arguments.map);
   const ndt::VoxelMap map(image.bytes());
   const auto scan = load_scan(arguments.scan, arguments.limits);
@@ -138,7 +138,7 @@ void align(const Arguments& arguments) {
 }  // namespace
 
 void add_align_command(CLI::App& app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<AlignArguments>();
   CLI::App& command = *app.add_subcommand("align", "the pose of one scan, from a guess");
   command.add_option("--map", arguments->map, "map, made by landfix map")->required()->type_name("MAP.ndt");
   command.add_option("--scan", arguments->scan, "scan in the vehicle frame")

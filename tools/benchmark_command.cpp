@@ -18,7 +18,7 @@
 namespace landfix::tools {
 namespace {
 
-struct Arguments {
+struct BenchmarkArguments {
   std::string map;
   std::string scans;
   std::string truth;
@@ -38,14 +38,15 @@ struct Arguments {
   return points_m;
 }
 
-[[nodiscard]] ndt::MapImage load(const Arguments& arguments, PclRival* rival, BenchmarkReport& report) {
+[[nodiscard]] ndt::MapImage load(const BenchmarkArguments& arguments, PclRival* rival,
+                                 BenchmarkReport& report) {
   if (!arguments.map.ends_with(".pcd")) return load_map_file(arguments.map);
   std::vector<Eigen::Vector3d> points_m;
   report.map_read_ms = cpu_ms_of([&] { points_m = read_cloud(arguments.map); });
   return build_timed(points_m, arguments.resolution_m, rival, report.result);
 }
 
-void benchmark(const Arguments& arguments) {
+void benchmark(const BenchmarkArguments& arguments) {
   BenchmarkSettings settings = arguments.settings;
   const std::vector<double>& perturb =
       arguments.perturb_exact.empty() ? arguments.perturb : arguments.perturb_exact;
@@ -83,7 +84,7 @@ void benchmark(const Arguments& arguments) {
 }  // namespace
 
 void add_benchmark_command(CLI::App& app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<BenchmarkArguments>();
   BenchmarkSettings& settings = arguments->settings;
   CLI::App& command =
       *app.add_subcommand("benchmark", "robustness, accuracy and time of matching against known poses");

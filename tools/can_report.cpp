@@ -54,7 +54,7 @@ std::string seconds(std::int64_t stamp_utc_ns) {
   return fmt::format("{}.{:09}", stamp_utc_ns / 1'000'000'000, stamp_utc_ns % 1'000'000'000);
 }
 
-std::string cell(double value, int decimals) {
+std::string number(double value, int decimals) {
   return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
 }
 
@@ -149,16 +149,17 @@ std::string pose_title() {
 }
 
 std::string to_line(const PoseReport& pose) {
-  const auto deg = [](double angle_rad) { return cell(angle_rad * kDeg_per_rad, 3); };
+  const auto deg = [](double angle_rad) { return number(angle_rad * kDeg_per_rad, 3); };
   return fmt::format("{:>21} {:>10} {:>10} {:>8} {:>8} {:>8} {:>9} {:>7} {:>13} {:>10}  {}\n",
-                     seconds(pose.stamp_utc_ns), cell(pose.x_m, 3), cell(pose.y_m, 3), cell(pose.z_m, 3),
-                     deg(pose.roll_rad), deg(pose.pitch_rad), deg(pose.yaw_rad), cell(pose.speed_x_mps, 2),
-                     cell(pose.sigma_along_m, 3), cell(pose.sigma_cross_m, 3), state_name(pose));
+                     seconds(pose.stamp_utc_ns), number(pose.x_m, 3), number(pose.y_m, 3),
+                     number(pose.z_m, 3), deg(pose.roll_rad), deg(pose.pitch_rad), deg(pose.yaw_rad),
+                     number(pose.speed_x_mps, 2), number(pose.sigma_along_m, 3),
+                     number(pose.sigma_cross_m, 3), state_name(pose));
 }
 
 std::string to_line_geodetic(const PoseReport& place) {
-  return fmt::format("@ latitude {} deg, longitude {} deg  {}\n", cell(place.latitude_deg, 9),
-                     cell(place.longitude_deg, 9), state_name(place));
+  return fmt::format("@ latitude {} deg, longitude {} deg  {}\n", number(place.latitude_deg, 9),
+                     number(place.longitude_deg, 9), state_name(place));
 }
 
 std::string to_line(const CanFault& fault) {

@@ -26,7 +26,7 @@ using drivers::DecodeStatus;
 using drivers::SensorModel;
 using drivers::Sweep;
 
-struct Arguments {
+struct DecodeArguments {
   std::string sensor;
   std::string calibration;
   std::string pcap;
@@ -44,7 +44,7 @@ std::string names_of(const std::vector<const SensorModel*>& models) {
 }
 
 /// The sensor that was asked for, or the only one that the capture can hold.
-const SensorModel& choose_sensor(const Arguments& arguments, const CaptureCensus& census) {
+const SensorModel& choose_sensor(const DecodeArguments& arguments, const CaptureCensus& census) {
   if (!arguments.sensor.empty()) return find_sensor(arguments.sensor);
   const auto& candidates = census.candidates();
   if (candidates.size() == 1) {
@@ -61,7 +61,8 @@ const SensorModel& choose_sensor(const Arguments& arguments, const CaptureCensus
       fmt::format("{}: could be {}; choose with --sensor", arguments.pcap, names_of(candidates)));
 }
 
-std::uint16_t port_of(const SensorModel& model, const Arguments& arguments, const CaptureCensus& census) {
+std::uint16_t port_of(const SensorModel& model, const DecodeArguments& arguments,
+                      const CaptureCensus& census) {
   const std::uint16_t port = census.port_of(model);
   if (port != 0) return port;
   const std::string hint =
@@ -157,7 +158,7 @@ std::string hint_for(const SensorModel& model, const CaptureCensus& census, cons
                      model.telemetry_port != 0 ? model.telemetry_port : model.data_port);
 }
 
-void refuse_if_nothing_was_decoded(const Arguments& arguments, const SensorModel& model,
+void refuse_if_nothing_was_decoded(const DecodeArguments& arguments, const SensorModel& model,
                                    const CaptureCensus& census, const DecodeSummary& summary) {
   if (summary.decoded() != 0) return;
   throw std::runtime_error(fmt::format("{}: none of {} packets of {} could be decoded: {}{}", arguments.pcap,
@@ -165,7 +166,7 @@ void refuse_if_nothing_was_decoded(const Arguments& arguments, const SensorModel
                                        hint_for(model, census, summary)));
 }
 
-void decode(const Arguments& arguments) {
+void decode(const DecodeArguments& arguments) {
   platform::PcapSource source(arguments.pcap);
   const CaptureCensus census(source);
   warn_of_losses(arguments.pcap, source.counters());
@@ -198,7 +199,7 @@ void decode(const Arguments& arguments) {
 
 void add_decode_command(CLI::App& app) {
   const std::map<std::string, SweepFormat> formats{{"pcd", SweepFormat::pcd}, {"csv", SweepFormat::csv}};
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<DecodeArguments>();
   CLI::App& command = *app.add_subcommand("decode", "point clouds from a capture, one file a sweep");
   command.add_option("--sensor", arguments->sensor, "its name (landfix sensors); found out where not given")
       ->type_name("NAME");

@@ -17,7 +17,7 @@ namespace {
 
 using platform::Alignment;
 
-struct Arguments {
+struct EvaluateArguments {
   std::string reference;
   std::string estimate;
   std::string align = "none";
@@ -30,7 +30,7 @@ Alignment alignment(const std::string& name) {
   return name == "se3" ? Alignment::se3 : Alignment::none;
 }
 
-void evaluate(const Arguments& arguments) {
+void evaluate(const EvaluateArguments& arguments) {
   const auto reference = platform::read_tum(arguments.reference);
   const auto estimate = platform::read_tum(arguments.estimate);
   const auto delta_ns = static_cast<std::int64_t>(std::llround(arguments.delta_s * 1e9));
@@ -42,7 +42,7 @@ void evaluate(const Arguments& arguments) {
 }  // namespace
 
 void add_evaluate_command(CLI::App& app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<EvaluateArguments>();
   CLI::App& command = *app.add_subcommand("evaluate", "errors of a trajectory against a reference");
   command.add_option("--reference", arguments->reference, "true trajectory (TUM)")
       ->required()

@@ -49,12 +49,11 @@ nlohmann::ordered_json to_json(const Evaluation& evaluation) {
 std::string to_table(const Evaluation& evaluation) {
   std::string table = fmt::format("{} poses compared, {} outside of the reference's time\n", evaluation.pairs,
                                   evaluation.unmatched);
-  const auto out = std::back_inserter(table);
-  fmt::format_to(out, "{:<24}{:>10}{:>10}{:>10}{:>10}\n", "error", "rmse", "mean", "median", "max");
+  table += fmt::format("{:<24}{:>10}{:>10}{:>10}{:>10}\n", "error", "rmse", "mean", "median", "max");
   for (const Row& row : kRows) {
     const ErrorStatistics& errors = evaluation.*row.statistics;
-    fmt::format_to(out, "{:<24}{:>10}{:>10}{:>10}{:>10}\n", row.title, cell(errors.rmse), cell(errors.mean),
-                   cell(errors.median), cell(errors.max));
+    table += fmt::format("{:<24}{:>10}{:>10}{:>10}{:>10}\n", row.title, cell(errors.rmse), cell(errors.mean),
+                         cell(errors.median), cell(errors.max));
   }
   return table;
 }

@@ -7,16 +7,16 @@
 #include <fmt/format.h>
 
 #include "platform/bus_message.hpp"
+#include "platform/nanoseconds.hpp"
 #include "platform/watchdog.hpp"
 #include "tools/journal.hpp"
 
 namespace landfix::tools {
 namespace {
 
-constexpr std::int64_t kNs_per_s = 1'000'000'000;
-constexpr std::int64_t kSavePeriod_ns = 10 * kNs_per_s;
-constexpr std::int64_t kStatusPeriod_ns = 2 * kNs_per_s;
-constexpr std::int64_t kSnapshotPeriod_ns = kNs_per_s / 2;
+constexpr std::int64_t kSavePeriod_ns = 10 * platform::kNs_per_s;
+constexpr std::int64_t kStatusPeriod_ns = 2 * platform::kNs_per_s;
+constexpr std::int64_t kSnapshotPeriod_ns = platform::kNs_per_s / 2;
 
 }  // namespace
 

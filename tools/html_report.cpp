@@ -65,7 +65,7 @@ summary{cursor:pointer}
 .columns{display:grid;grid-template-columns:repeat(auto-fit,minmax(260px,1fr));gap:0 32px}
 )css";
 
-[[nodiscard]] std::string escaped(std::string_view text) {
+[[nodiscard]] std::string html_of(std::string_view text) {
   std::string safe;
   for (const char character : text) {
     switch (character) {
@@ -205,20 +205,20 @@ enum class Mood : std::uint8_t { plain, good, bad };
 }
 
 [[nodiscard]] std::string error_section(const platform::Evaluation& errors) {
-  struct Row {
+  struct ErrorRow {
     std::string_view name;
     const platform::ErrorStatistics& errors;
     double factor;
   };
-  const std::array<Row, 7> rows{{{"position [cm]", errors.ate_m, 100.0},
-                                 {"elevation [cm]", errors.elevation_m, 100.0},
-                                 {"heading [deg]", errors.heading_deg, 1.0},
-                                 {"roll [deg]", errors.roll_deg, 1.0},
-                                 {"pitch [deg]", errors.pitch_deg, 1.0},
-                                 {"relative, 1 s [cm]", errors.rpe_m, 100.0},
-                                 {"relative, 1 s [deg]", errors.rpe_deg, 1.0}}};
+  const std::array<ErrorRow, 7> rows{{{"position [cm]", errors.ate_m, 100.0},
+                                      {"elevation [cm]", errors.elevation_m, 100.0},
+                                      {"heading [deg]", errors.heading_deg, 1.0},
+                                      {"roll [deg]", errors.roll_deg, 1.0},
+                                      {"pitch [deg]", errors.pitch_deg, 1.0},
+                                      {"relative, 1 s [cm]", errors.rpe_m, 100.0},
+                                      {"relative, 1 s [deg]", errors.rpe_deg, 1.0}}};
   std::string text;
-  for (const Row& row : rows) {
+  for (const ErrorRow& row : rows) {
     text += fmt::format("<tr><td>{}</td>", row.name);
     for (const double value : {row.errors.rmse, row.errors.mean, row.errors.median, row.errors.max}) {
       text +=
@@ -257,7 +257,7 @@ std::string to_html(const HtmlReport& report) {
       "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"/>\n"
       "<title>landfix replay: {0}</title>\n<style>{1}</style></head>\n<body><main>\n<h1>Replay of {0}</h1>\n"
       "<p class=\"soft\">{2}, against {3}</p>\n",
-      escaped(report.capture), kStyle, escaped(report.sensor), escaped(report.map));
+      html_of(report.capture), kStyle, html_of(report.sensor), html_of(report.map));
   page += tiles_of(report, stages);
   page += "<section><h2>Trajectory over the map</h2>\n<div class=\"scroll map\">" +
           trajectory_svg(report.map_points_m, result.trajectory(), report.truth) + "</div></section>\n";
@@ -271,7 +271,7 @@ std::string to_html(const HtmlReport& report) {
       "<section><h2>How it was made</h2>\n<p class=\"soft\">landfix {}</p>\n<pre>{}</pre>\n"
       "<details><summary>All figures, as --json prints them</summary>\n<pre>{}</pre></details></section>\n"
       "</main></body></html>\n",
-      escaped(report.version), escaped(report.command), escaped(json.dump(2)));
+      html_of(report.version), html_of(report.command), html_of(json.dump(2)));
   return page;
 }
 

@@ -23,9 +23,7 @@ void require_usable(const std::string& config) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   using namespace landfix::tools;
   CLI::App app{
       "The vehicle's daemon: packets of the sensor in, poses on the CAN bus. It stays in the foreground, "
@@ -52,19 +50,26 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "landfixd: {} (see landfixd --help)\n", error.what());
     return 2;
   }
+  require_usable(config);
+  if (only_check) {
+    fmt::print("{}", check_daemon(config, json));
+  } else {
+    run_daemon(config);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using landfix::tools::log_line, landfix::tools::Severity;
   try {
-    require_usable(config);
-    if (only_check) {
-      fmt::print("{}", check_daemon(config, json));
-    } else {
-      run_daemon(config);
-    }
-  } catch (const UsageError& error) {
+    return run(argc, argv);
+  } catch (const landfix::tools::UsageError& error) {
     log_line(Severity::error, error.what());
     return 2;
   } catch (const std::exception& error) {
     log_line(Severity::error, error.what());
     return 1;
   }
-  return 0;
 }

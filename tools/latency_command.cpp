@@ -19,7 +19,7 @@
 namespace landfix::tools {
 namespace {
 
-struct Arguments {
+struct LatencyArguments {
   std::vector<std::string> files;
   bool live = false;
   DaemonAddress daemon;
@@ -54,7 +54,7 @@ void read_live(const DaemonAddress& daemon, std::vector<StageLatency>& stages) {
   });
 }
 
-void latency(const Arguments& arguments) {
+void latency(const LatencyArguments& arguments) {
   if (arguments.files.empty() != arguments.live) {
     throw UsageError("either .hgrm files, or --live of the running daemon");
   }
@@ -68,7 +68,7 @@ void latency(const Arguments& arguments) {
 }  // namespace
 
 void add_latency_command(CLI::App& app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<LatencyArguments>();
   CLI::App& command = *app.add_subcommand("latency", "latencies stage by stage, against a budget");
   command
       .add_option("FILE", arguments->files,

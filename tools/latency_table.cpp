@@ -19,15 +19,15 @@
 namespace landfix::tools {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<double, kLatencyKeys.size() - 1> kPercents{50.0, 90.0, 99.0, 99.9};
 
-enum class Verdict : std::uint8_t { none, met, missed };
+enum class BudgetVerdict : std::uint8_t { none, met, missed };
 
 /// "p50 < 1, p99.9 < 2", and whether it is so.
 struct Judgement {
   std::string budget;
-  Verdict verdict = Verdict::none;
+  BudgetVerdict verdict = BudgetVerdict::none;
 };
 
 [[nodiscard]] const LatencyValues* limits_of(std::string_view stage, const LatencyBudget& budget) {
@@ -44,19 +44,19 @@ struct Judgement {
     const double limit_ms = (*limits_ms)[i];
     if (std::isnan(limit_ms)) continue;
     judgement.budget += fmt::format("{}{} {:g}", judgement.budget.empty() ? "" : ", ", kNames[i], limit_ms);
-    if (judgement.verdict != Verdict::missed) {
-      judgement.verdict = stage.values_ms[i] <= limit_ms ? Verdict::met : Verdict::missed;
+    if (judgement.verdict != BudgetVerdict::missed) {
+      judgement.verdict = stage.values_ms[i] <= limit_ms ? BudgetVerdict::met : BudgetVerdict::missed;
     }
   }
   return judgement;
 }
 
-[[nodiscard]] std::string_view to_string(Verdict verdict) {
+[[nodiscard]] std::string_view to_string(BudgetVerdict verdict) {
   constexpr std::array<std::string_view, 3> kNames{"-", "MET", "MISSED"};
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
-[[nodiscard]] std::string cell(double value_ms) {
+[[nodiscard]] std::string cell_ms(double value_ms) {
   return std::isnan(value_ms) ? "-" : fmt::format("{:.4f}", value_ms);
 }
 
@@ -64,7 +64,7 @@ struct Judgement {
 
 StageLatency latency_of(const platform::LatencyDistribution& distribution) {
   StageLatency latency{.stage = distribution.stage, .count = distribution.count(), .values_ms = {}};
-  latency.values_ms.fill(kNone);
+  latency.values_ms.fill(kNothing);
   if (latency.count == 0) return latency;
   for (std::size_t i = 0; i < kPercents.size(); ++i) {
     latency.values_ms[i] = distribution.percentile_ms(kPercents[i]);
@@ -74,10 +74,10 @@ StageLatency latency_of(const platform::LatencyDistribution& distribution) {
 }
 
 LatencyBudget default_budget() {
-  return {{"kernel_receive", {kNone, kNone, 0.1, kNone, kNone}},
-          {"publish", {kNone, kNone, 0.2, kNone, kNone}},
-          {"last_packet", {1.0, kNone, kNone, 2.0, kNone}},
-          {"total", {1.0, kNone, kNone, 2.0, kNone}}};
+  return {{"kernel_receive", {kNothing, kNothing, 0.1, kNothing, kNothing}},
+          {"publish", {kNothing, kNothing, 0.2, kNothing, kNothing}},
+          {"last_packet", {1.0, kNothing, kNothing, 2.0, kNothing}},
+          {"total", {1.0, kNothing, kNothing, 2.0, kNothing}}};
 }
 
 LatencyBudget parse_budget(std::string_view text, const std::filesystem::path& path) {
@@ -97,7 +97,7 @@ LatencyBudget parse_budget(std::string_view text, const std::filesystem::path& p
                                            fmt::join(platform::kStageNames, ", ")));
     }
     LatencyValues& limits_ms = budget[std::string(stage)];
-    limits_ms.fill(kNone);
+    limits_ms.fill(kNothing);
     platform::TomlSection section(path, root, stage);
     for (std::size_t i = 0; i < kLatencyKeys.size(); ++i) {
       section.read(kLatencyKeys[i], limits_ms[i], {1e-6, 1e6});
@@ -115,15 +115,15 @@ LatencyBudget read_budget(const std::filesystem::path& path) {
 std::string to_table(std::span<const StageLatency> stages, const LatencyBudget& budget) {
   std::string text;
   const auto add = [&text]<class... Values>(fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
+    text += fmt::format(format, std::forward<Values>(values)...);
   };
   add("{:<14} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}  {:<6} {}\n", "stage [ms]", "p50", "p90", "p99", "p99.9",
       "max", "count", "", "budget");
   for (const StageLatency& stage : stages) {
     const Judgement judgement = judge(stage, budget);
-    add("{:<14} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}  {:<6} {}\n", stage.stage, cell(stage.values_ms[0]),
-        cell(stage.values_ms[1]), cell(stage.values_ms[2]), cell(stage.values_ms[3]),
-        cell(stage.values_ms[4]), stage.count, to_string(judgement.verdict), judgement.budget);
+    add("{:<14} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}  {:<6} {}\n", stage.stage, cell_ms(stage.values_ms[0]),
+        cell_ms(stage.values_ms[1]), cell_ms(stage.values_ms[2]), cell_ms(stage.values_ms[3]),
+        cell_ms(stage.values_ms[4]), stage.count, to_string(judgement.verdict), judgement.budget);
   }
   return text;
 }
@@ -137,7 +137,7 @@ nlohmann::ordered_json to_json(std::span<const StageLatency> stages, const Laten
     }
     const Judgement judgement = judge(stage, budget);
     entry["met"] = nullptr;
-    if (judgement.verdict != Verdict::none) entry["met"] = judgement.verdict == Verdict::met;
+    if (judgement.verdict != BudgetVerdict::none) entry["met"] = judgement.verdict == BudgetVerdict::met;
     if (const LatencyValues* const limits_ms = limits_of(stage.stage, budget)) {
       nlohmann::ordered_json limits;
       for (std::size_t i = 0; i < kLatencyKeys.size(); ++i) {

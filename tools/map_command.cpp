@@ -23,7 +23,7 @@
 namespace landfix::tools {
 namespace {
 
-struct Arguments {
+struct MapArguments {
   std::vector<std::string> clouds;
   std::string output;
   double resolution_m = 1.0;
@@ -65,7 +65,7 @@ void check_origin(const Eigen::Vector3d& origin_m, double resolution_m) {
                                resolution_m, ndt::kMaxCell * resolution_m));
 }
 
-void make_map(const Arguments& arguments) {
+void make_map(const MapArguments& arguments) {
   const auto began = std::chrono::steady_clock::now();
   std::vector<std::filesystem::path> files;
   for (const std::string& cloud : arguments.clouds) {
@@ -109,7 +109,7 @@ void make_map(const Arguments& arguments) {
 }  // namespace
 
 void add_map_command(CLI::App& app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<MapArguments>();
   CLI::App& command = *app.add_subcommand("map", "voxel map from surveyed point clouds");
   command
       .add_option(

@@ -83,8 +83,7 @@ std::array<std::string, kShades> draw(const ShadeGrid& grid) {
       std::size_t end = column + 1;
       while (end < grid.columns && grid.at(end, row) == shade) ++end;
       if (shade != kEmpty) {
-        fmt::format_to(std::back_inserter(paths[shade]), "M{} {}h{}v1h-{}z", column, row, end - column,
-                       end - column);
+        paths[shade] += fmt::format("M{} {}h{}v1h-{}z", column, row, end - column, end - column);
       }
       column = end;
     }

@@ -14,7 +14,7 @@ namespace landfix::tools {
 namespace {
 
 /// A label's value: quotes, backslashes and ends of line are the format's own.
-[[nodiscard]] std::string escaped(std::string_view value) {
+[[nodiscard]] std::string label_of(std::string_view value) {
   std::string text;
   for (const char character : value) {
     if (character == '\n') {
@@ -44,7 +44,7 @@ class Metrics {
   void sample(std::uint64_t value) { add("{} {}\n", name_, value); }
   template <class Value>
   void sample(std::string_view label, std::string_view label_value, Value value) {
-    add("{}{{{}=\"{}\"}} ", name_, label, escaped(label_value));
+    add("{}{{{}=\"{}\"}} ", name_, label, label_of(label_value));
     if constexpr (std::is_floating_point_v<Value>)
       add("{}\n", number(value));
     else
@@ -81,7 +81,7 @@ class Metrics {
  private:
   template <class... Values>
   void add(fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
+    text_ += fmt::format(format, std::forward<Values>(values)...);
   }
 
   std::string text_;

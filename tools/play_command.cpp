@@ -18,7 +18,7 @@
 namespace landfix::tools {
 namespace {
 
-struct Arguments {
+struct PlayArguments {
   std::string to;
   std::string from;
   platform::PlaySettings settings;
@@ -71,7 +71,7 @@ void play_all(platform::CapturePlayer& player, std::uint64_t laps) {
   show_progress("");
 }
 
-void play(const Arguments& arguments) {
+void play(const PlayArguments& arguments) {
   platform::PlaySettings settings = arguments.settings;
   const Destination destination = parse_destination(arguments.to);
   settings.to_address = resolve("--to", destination.host);
@@ -110,7 +110,7 @@ void play(const Arguments& arguments) {
 }  // namespace
 
 void add_play_command(CLI::App& app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<PlayArguments>();
   platform::PlaySettings& settings = arguments->settings;
   CLI::App& command = *app.add_subcommand("play", "a capture back onto the network, at its recorded times");
   command.add_option("--pcap", settings.file, "capture, pcap or pcapng")->required()->type_name("FILE");

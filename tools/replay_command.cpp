@@ -35,7 +35,7 @@
 namespace landfix::tools {
 namespace {
 
-struct Arguments {
+struct ReplayArguments {
   ReplayInput input;
   std::string pcap;
   std::string trajectory;
@@ -60,14 +60,14 @@ struct Arguments {
   return means_m;
 }
 
-void write_svg(const Arguments& arguments, const ndt::VoxelMap& map,
+void write_svg(const ReplayArguments& arguments, const ndt::VoxelMap& map,
                const std::vector<ndt::StampedPose>& trajectory, const std::vector<ndt::StampedPose>& truth) {
   platform::AtomicFile file(arguments.svg);
   file.write(trajectory_svg(voxel_means(map), trajectory, truth));
   file.commit();
 }
 
-void write_html(const Arguments& arguments, const ReplaySetup& setup, const ReplayReport& replay,
+void write_html(const ReplayArguments& arguments, const ReplaySetup& setup, const ReplayReport& replay,
                 const std::filesystem::path& capture, const std::vector<ndt::StampedPose>& truth) {
   const auto means_m = voxel_means(setup.map());
   const HtmlReport report{
@@ -119,7 +119,7 @@ struct Seams {
   TraceWriter* trace;
 };
 
-[[nodiscard]] bool uses_threads(const Arguments& arguments) {
+[[nodiscard]] bool uses_threads(const ReplayArguments& arguments) {
   return arguments.realtime || arguments.laps > 1;
 }
 
@@ -142,7 +142,7 @@ struct Seams {
 }
 
 /// In the threads of the vehicle. Where the laps are many, their results are counted, not kept.
-[[nodiscard]] ReplayResult replay_in_threads(const Arguments& arguments, const ReplaySetup& setup,
+[[nodiscard]] ReplayResult replay_in_threads(const ReplayArguments& arguments, const ReplaySetup& setup,
                                              const std::filesystem::path& capture, const Seams& seams) {
   const auto mode =
       arguments.realtime ? platform::EngineMode::paced_replay : platform::EngineMode::fast_replay;
@@ -171,7 +171,7 @@ struct Seams {
   return result;
 }
 
-[[nodiscard]] std::vector<platform::StampedFrame> read_odometry(const Arguments& arguments,
+[[nodiscard]] std::vector<platform::StampedFrame> read_odometry(const ReplayArguments& arguments,
                                                                 const ReplaySetup& setup) {
   if (arguments.odometry.empty()) return {};
   if (setup.settings.odometry.count == 0) {
@@ -181,7 +181,7 @@ struct Seams {
   return platform::read_candump(arguments.odometry);
 }
 
-void replay(const Arguments& arguments) {
+void replay(const ReplayArguments& arguments) {
   const ReplaySetup setup = prepare_replay(arguments.input);
   const auto truth =
       arguments.truth.empty() ? std::vector<ndt::StampedPose>() : platform::read_tum(arguments.truth);
@@ -226,7 +226,7 @@ void replay(const Arguments& arguments) {
 }  // namespace
 
 void add_replay_command(CLI::App& app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ReplayArguments>();
   CLI::App& command =
       *app.add_subcommand("replay", "a capture through the vehicle's pipeline: packets in, poses out");
   const auto add_file = [&command](const char* name, auto& path, const char* type, const char* what) {

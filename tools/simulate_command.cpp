@@ -17,7 +17,7 @@
 namespace landfix::tools {
 namespace {
 
-struct Arguments {
+struct SimulateArguments {
   std::string route;
   std::string sensor;
   std::string output;
@@ -27,7 +27,7 @@ struct Arguments {
   bool json = false;
 };
 
-std::unique_ptr<simulator::Drive> make_drive(const Arguments& arguments) {
+std::unique_ptr<simulator::Drive> make_drive(const SimulateArguments& arguments) {
   try {
     simulator::Route route = simulator::load_route(arguments.route);
     if (arguments.length_m) route = simulator::shortened(std::move(route), *arguments.length_m);
@@ -38,7 +38,7 @@ std::unique_ptr<simulator::Drive> make_drive(const Arguments& arguments) {
   }
 }
 
-void simulate(const Arguments& arguments) {
+void simulate(const SimulateArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   const std::unique_ptr<simulator::Drive> drive = make_drive(arguments);
   const auto progress = [](double share) {
@@ -73,7 +73,7 @@ void simulate(const Arguments& arguments) {
 }  // namespace
 
 void add_simulate_command(CLI::App& app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<SimulateArguments>();
   CLI::App* const command =
       app.add_subcommand("simulate", "a drive with its capture, truth, surveyed map and configuration");
   command

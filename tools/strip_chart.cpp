@@ -12,15 +12,15 @@ namespace landfix::tools {
 namespace {
 
 // Pixels.
-constexpr double kWidth = 720.0;
-constexpr double kLeft = 48.0;
-constexpr double kRight = 10.0;
+constexpr double kStripsWidth = 720.0;
+constexpr double kStripsLeft = 48.0;
+constexpr double kStripsRight = 10.0;
 constexpr double kBandTop = 24.0;
 constexpr double kBandHeight = 16.0;
 constexpr double kStripHeight = 64.0;
 constexpr double kStripGap = 34.0;  ///< room for a title
-constexpr double kAxisHeight = 36.0;
-constexpr double kPlotWidth = kWidth - kLeft - kRight;
+constexpr double kTimeAxisHeight = 36.0;
+constexpr double kPlotWidth = kStripsWidth - kStripsLeft - kStripsRight;
 
 /// The time axis.
 class TimeAxis {
@@ -29,7 +29,9 @@ class TimeAxis {
       : begin_s_(chart.times_s.empty() ? 0.0 : chart.times_s.front()),
         length_s_(chart.times_s.empty() ? 1.0 : std::max(chart.times_s.back() - begin_s_, 1e-3)) {}
 
-  [[nodiscard]] double x(double time_s) const { return kLeft + kPlotWidth * (time_s - begin_s_) / length_s_; }
+  [[nodiscard]] double x(double time_s) const {
+    return kStripsLeft + kPlotWidth * (time_s - begin_s_) / length_s_;
+  }
   [[nodiscard]] double length_s() const { return length_s_; }
   [[nodiscard]] double begin_s() const { return begin_s_; }
 
@@ -64,7 +66,7 @@ struct Stretch {
 void add_states(Svg& svg, const StripChart& chart, const TimeAxis& axis) {
   constexpr double kLeast = 1.5;  // so that one bad sweep is seen
   const double bottom = strip_top(chart.strips.size()) - kStripGap;
-  svg.add(R"(<text x="{}" y="{}" class="strip">state</text>)", kLeft, kBandTop - 8.0);
+  svg.add(R"(<text x="{}" y="{}" class="strip">state</text>)", kStripsLeft, kBandTop - 8.0);
   svg.add(R"(<g id="states">)");
   for (const Stretch& stretch : stretches_of(chart, axis)) {
     const double width = std::max(stretch.right - stretch.left, kLeast);
@@ -117,11 +119,12 @@ void add_strip(Svg& svg, const StripChart& chart, std::size_t number, const Time
     if (std::isfinite(value)) greatest = std::max(greatest, value);
   }
   const double limit = greatest > 0.0 ? nice_above(greatest) : 1.0;
-  svg.add(R"(<text x="{}" y="{:.1f}" class="strip">{}</text>)", kLeft, top - 8.0, strip.title);
+  svg.add(R"(<text x="{}" y="{:.1f}" class="strip">{}</text>)", kStripsLeft, top - 8.0, strip.title);
   for (const double share : {0.0, 0.5, 1.0}) {
     const double y = top + kStripHeight * (1.0 - share);
-    svg.add(R"(<path d="M{} {:.1f}h{}" class="grid"/>)", kLeft, y, kPlotWidth);
-    svg.add(R"(<text x="{}" y="{:.1f}" text-anchor="end">{:g}</text>)", kLeft - 6.0, y + 4.0, share * limit);
+    svg.add(R"(<path d="M{} {:.1f}h{}" class="grid"/>)", kStripsLeft, y, kPlotWidth);
+    svg.add(R"(<text x="{}" y="{:.1f}" text-anchor="end">{:g}</text>)", kStripsLeft - 6.0, y + 4.0,
+            share * limit);
   }
   svg.add(R"(<path d="{}" class="line"/>)", path_of(chart, strip, axis, top, limit));
 }
@@ -145,10 +148,10 @@ std::string_view colour_of(ndt::State state) {
 
 std::string strip_chart_svg(const StripChart& chart) {
   const TimeAxis axis(chart);
-  const double height = strip_top(chart.strips.size()) - kStripGap + kAxisHeight;
+  const double height = strip_top(chart.strips.size()) - kStripGap + kTimeAxisHeight;
   Svg svg;
-  svg.add(R"(<svg xmlns="http://www.w3.org/2000/svg" class="chart" viewBox="0 0 {} {}" role="img">)", kWidth,
-          height);
+  svg.add(R"(<svg xmlns="http://www.w3.org/2000/svg" class="chart" viewBox="0 0 {} {}" role="img">)",
+          kStripsWidth, height);
   add_states(svg, chart, axis);
   for (std::size_t i = 0; i < chart.strips.size(); ++i) add_strip(svg, chart, i, axis);
   add_axis(svg, chart, axis);

@@ -1,8 +1,7 @@
 #include "tools/sweep_files.hpp"
 
-#include <iterator>
 #include <span>
-#include <string_view>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,14 +13,13 @@ namespace landfix::tools {
 namespace {
 
 void write_csv(const std::filesystem::path& path, std::span<const drivers::Point> points) {
-  fmt::memory_buffer text;
-  fmt::format_to(std::back_inserter(text), "x,y,z,intensity,ring,time\n");
+  std::string text = "x,y,z,intensity,ring,time\n";
   for (const drivers::Point& point : points) {
-    fmt::format_to(std::back_inserter(text), "{:.6f},{:.6f},{:.6f},{:g},{},{:.9f}\n", point.x, point.y,
-                   point.z, point.intensity, point.ring, point.time_s);
+    text += fmt::format("{:.6f},{:.6f},{:.6f},{:g},{},{:.9f}\n", point.x, point.y, point.z, point.intensity,
+                        point.ring, point.time_s);
   }
   platform::AtomicFile file(path);
-  file.write(std::string_view(text.data(), text.size()));
+  file.write(text);
   file.commit();
 }
 

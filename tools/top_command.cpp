@@ -17,7 +17,7 @@
 namespace landfix::tools {
 namespace {
 
-struct Arguments {
+struct TopArguments {
   DaemonAddress daemon;
   bool once = false;
   bool json = false;
@@ -46,7 +46,7 @@ void redraw(const std::string& screen) {
   }
 }
 
-void top(const Arguments& arguments) {
+void top(const TopArguments& arguments) {
   const bool is_terminal = ::isatty(STDOUT_FILENO) == 1;
   if (is_terminal && !arguments.once && !arguments.json) watch(arguments.daemon);
   const nlohmann::json now = daemon_status(arguments.daemon);
@@ -56,7 +56,7 @@ void top(const Arguments& arguments) {
 }  // namespace
 
 void add_top_command(CLI::App& app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<TopArguments>();
   CLI::App& command = *app.add_subcommand("top", "the running daemon at a glance");
   add_daemon_options(command, arguments->daemon);
   command.add_flag("--once", arguments->once,

@@ -18,7 +18,7 @@ class Screen {
  public:
   template <class... Values>
   void line(fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
+    text_ += fmt::format(format, std::forward<Values>(values)...);
     text_ += '\n';
   }
   [[nodiscard]] std::string take() { return std::move(text_); }

@@ -21,7 +21,7 @@ namespace {
 using platform::StampedPose;
 
 // Pixels.
-constexpr double kWidth = 1100.0;
+constexpr double kPageWidth = 1100.0;
 constexpr double kMapHeight = 760.0;
 constexpr double kMargin = 30.0;
 constexpr double kTitleHeight = 74.0;
@@ -88,8 +88,8 @@ class View {
     if (area_m_.isEmpty()) area_m_.extend(Eigen::Vector2d(0.0, 0.0));
     area_m_ = Eigen::AlignedBox2d(area_m_.min().array() - kAround_m, area_m_.max().array() + kAround_m);
     pixels_per_m_ =
-        std::min((kWidth - 2.0 * kMargin) / area_m_.sizes().x(), kMapHeight / area_m_.sizes().y());
-    left_ = 0.5 * (kWidth - pixels_per_m_ * area_m_.sizes().x());
+        std::min((kPageWidth - 2.0 * kMargin) / area_m_.sizes().x(), kMapHeight / area_m_.sizes().y());
+    left_ = 0.5 * (kPageWidth - pixels_per_m_ * area_m_.sizes().x());
   }
 
   [[nodiscard]] const Eigen::AlignedBox2d& area_m() const { return area_m_; }
@@ -126,7 +126,7 @@ void add_truth(Svg& svg, std::span<const StampedPose> truth, const View& view) {
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const Eigen::Vector2d pixel = view.pixel(truth[i].pose.translation());
     if ((pixel - last).norm() < kStep_pixels && i + 1 < truth.size()) continue;
-    fmt::format_to(std::back_inserter(points), "{:.1f},{:.1f} ", pixel.x(), pixel.y());
+    points += fmt::format("{:.1f},{:.1f} ", pixel.x(), pixel.y());
     last = pixel;
   }
   svg.add(
@@ -146,7 +146,7 @@ void add_trajectory(Svg& svg, const Track& track, const View& view) {
     std::size_t end = i;
     do {
       const Eigen::Vector2d pixel = view.pixel(track.positions_m[end]);
-      fmt::format_to(std::back_inserter(points), "{:.1f},{:.1f} ", pixel.x(), pixel.y());
+      points += fmt::format("{:.1f},{:.1f} ", pixel.x(), pixel.y());
     } while (end++ == i ||
              (end < track.positions_m.size() && colour_of(track.errors_m[end - 1], limit_cm) == colour));
     svg.add(R"(<polyline stroke="{}" points="{}"/>)", colour, points);
@@ -181,7 +181,7 @@ void add_legend(Svg& svg, const Track& track, const View& view) {
   constexpr double kSwatch = 26.0;
   const double limit_cm = colour_limit_cm(track);
   const double y = view.bottom() - 24.0;
-  double x = kWidth - kMargin - kSwatch * static_cast<double>(kErrorColours.size()) - 46.0;
+  double x = kPageWidth - kMargin - kSwatch * static_cast<double>(kErrorColours.size()) - 46.0;
   svg.add(
       R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="66" rx="5" fill="#fff" fill-opacity="0.85"/>)",
       x - 12.0, y - 48.0, kSwatch * static_cast<double>(kErrorColours.size()) + 60.0);
@@ -206,7 +206,7 @@ void add_chart(Svg& svg, const Track& track, const View& view) {
   const double limit_cm = colour_limit_cm(track);
   const double top = view.bottom() + kChartGap;
   const double left = kMargin + 40.0;
-  const double width = kWidth - kMargin - 12.0 - left;
+  const double width = kPageWidth - kMargin - 12.0 - left;
   const double length_m = std::max(track.length_m(), 1.0);
   const double step_m = nice_below(length_m / 4.0);
   svg.add(
@@ -225,9 +225,8 @@ void add_chart(Svg& svg, const Track& track, const View& view) {
   std::string points;
   for (std::size_t i = 0; i < track.errors_m.size(); ++i) {
     if (!track.errors_m[i]) continue;
-    fmt::format_to(std::back_inserter(points), "{:.1f},{:.1f} ",
-                   left + width * track.distances_m[i] / length_m,
-                   top + kChartHeight * (1.0 - 100.0 * *track.errors_m[i] / limit_cm));
+    points += fmt::format("{:.1f},{:.1f} ", left + width * track.distances_m[i] / length_m,
+                          top + kChartHeight * (1.0 - 100.0 * *track.errors_m[i] / limit_cm));
   }
   svg.add(R"(<polyline id="error" points="{}" fill="none" stroke="#1a7f5a" stroke-width="1.5"/>)", points);
 }
@@ -257,7 +256,7 @@ std::string trajectory_svg(std::span<const Eigen::Vector3f> map_points_m,
   svg.add(
       R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0:.0f} {1:.0f}" width="{0:.0f}" height="{1:.0f}" )"
       R"(font-family="sans-serif" font-size="12" fill="#222">)",
-      kWidth, height);
+      kPageWidth, height);
   svg.add("<style>.title{{font-size:22px;font-weight:bold}} .mark{{font-size:14px}}</style>");
   svg.add(R"(<rect width="100%" height="100%" fill="#fff"/>)");
   add_title(svg, track, trajectory, truth);

@@ -13,7 +13,7 @@ namespace landfix::drivers::velodyne {
 namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-constexpr double kRangeUnitM = 0.002;
+constexpr double kHdl64RangeUnit_m = 0.002;
 
 // Where the factory measures the corrections (appendix F).
 constexpr double kFarM = 25.04;
@@ -98,7 +98,7 @@ void Hdl64Projector::set_laser(std::size_t i, const Hdl64Laser& laser, bool corr
   // The far correction is off by centimetres at most.
   const RawBounds bounds =
       laser.enabled
-          ? RangeGate(kRangeUnitM, min_range_m_ - laser.range_m, max_range_m_ - laser.range_m).bounds()
+          ? RangeGate(kHdl64RangeUnit_m, min_range_m_ - laser.range_m, max_range_m_ - laser.range_m).bounds()
           : kNothing;
   least_raw_[i] = bounds.least;
   most_raw_[i] = bounds.most;
@@ -150,7 +150,7 @@ LANDFIX_WIDEST SlotPoints Hdl64Projector::project_lasers(const Block& block,
     const float sine = block_sine * cosine_[laser] + block_cosine * sine_[laser];
     const std::uint32_t range_raw = range_of(words[i]);
     const auto raw = static_cast<float>(static_cast<std::int32_t>(range_raw));
-    const float measured_m = raw * static_cast<float>(kRangeUnitM);
+    const float measured_m = raw * static_cast<float>(kHdl64RangeUnit_m);
     const float far_m = measured_m + range_m_[laser];
     const float horizontal_m = far_m * cos_elevation_[laser];
     const float offset_m = horizontal_offset_m_[laser];

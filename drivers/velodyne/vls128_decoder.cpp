@@ -6,7 +6,7 @@
 namespace landfix::drivers::velodyne {
 namespace {
 
-constexpr double kRangeUnitM = 0.004;
+constexpr double kVls128RangeUnit_m = 0.004;
 /// A sequence: eight groups of eight lasers, one slot of maintenance, eight groups, three of maintenance.
 constexpr int kSlotsASequence = 20;
 /// The packet's time is that of the fourth group of its first sequence.
@@ -88,7 +88,7 @@ Vls128Decoder::Vls128Decoder(std::span<const Beam, kVls128Lasers> beams,
              slots_of_bank(beams, 3)},
       projectors_{projector_of(slots_[0], slot_.us()), projector_of(slots_[1], slot_.us()),
                   projector_of(slots_[2], slot_.us()), projector_of(slots_[3], slot_.us())},
-      gate_(kRangeUnitM, options.min_range_m, options.max_range_m),
+      gate_(kVls128RangeUnit_m, options.min_range_m, options.max_range_m),
       builder_(options.cut_deg),
       firing_time_azimuth_(options.firing_time_azimuth) {}
 
@@ -181,7 +181,7 @@ DecodeResult Vls128Decoder::decode(const Packet& packet, SweepPair& sweeps) noex
     }
     Block block{.azimuth_centideg = azimuth_centideg,
                 .time_s = builder_.begin_block(azimuth_centideg, sequence_start_ns, sweeps),
-                .unit_m = static_cast<float>(kRangeUnitM)};
+                .unit_m = static_cast<float>(kVls128RangeUnit_m)};
     const std::size_t first_block = sequence * kBanks * header.blocks_a_bank;
     for (std::size_t bank = 0; bank < kBanks; ++bank) {
       block.duplicates = nullptr;

@@ -1,7 +1,5 @@
 // `landfix can decode` on a real interface.
 #include <chrono>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <thread>
 
@@ -17,12 +15,6 @@ namespace landfix::platform {
 namespace {
 
 using testing::HasSubstr;
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
 
 class CanDecode : public testing::Test {
  protected:
@@ -55,7 +47,7 @@ TEST_F(CanDecode, PrintsSoManyPosesOfTheBusAsTheyCome) {
   test::Background decode(LANDFIX_PROGRAM " can decode vcan0 --json --count 20 >" + out_.string());
   send_poses_to(decode);
   EXPECT_EQ(decode.exit_code(), 0);
-  const std::string json = text_of(out_);
+  const std::string json = test::text_of(out_);
   for (const char* const fault :
        {"wrong_crc", "repeated", "lost", "wrong_sequence", "out_of_order", "silence"}) {
     EXPECT_THAT(json, HasSubstr(std::string("\"") + fault + "\": 0"));
@@ -70,21 +62,21 @@ TEST_F(CanDecode, EndsAfterATimeAndOnCtrlC) {
   test::Background timed(LANDFIX_PROGRAM " can decode vcan0 --seconds 1 >" + out_.string());
   send_poses_to(timed);
   EXPECT_EQ(timed.exit_code(), 0);
-  EXPECT_THAT(text_of(out_), HasSubstr("TRACKING"));
-  EXPECT_THAT(text_of(out_), HasSubstr("poses in"));
+  EXPECT_THAT(test::text_of(out_), HasSubstr("TRACKING"));
+  EXPECT_THAT(test::text_of(out_), HasSubstr("poses in"));
 
   test::Background endless(LANDFIX_PROGRAM " can decode vcan0 2>" + out_.string());
   std::this_thread::sleep_for(std::chrono::seconds(3));  // until it surely listens
   endless.stop();
   EXPECT_EQ(endless.exit_code(), 1);
-  EXPECT_THAT(text_of(out_), HasSubstr("no pose at base id 0x3A0 among 0 frames"));
+  EXPECT_THAT(test::text_of(out_), HasSubstr("no pose at base id 0x3A0 among 0 frames"));
 }
 
 TEST_F(CanDecode, SaysThatThereIsNoSuchInterface) {
   test::Background decode(LANDFIX_PROGRAM " can decode vcan7 2>" + out_.string());
   while (!decode.has_ended()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   EXPECT_EQ(decode.exit_code(), 1);
-  EXPECT_THAT(text_of(out_), HasSubstr("vcan7: no such interface"));
+  EXPECT_THAT(test::text_of(out_), HasSubstr("vcan7: no such interface"));
 }
 
 }  // namespace

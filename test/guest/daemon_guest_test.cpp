@@ -1,7 +1,6 @@
 // landfixd on a real interface: packets from the network, poses on vcan0.
 #include <chrono>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <thread>
 
@@ -17,12 +16,6 @@ namespace landfix::platform {
 namespace {
 
 using testing::HasSubstr;
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
 
 void sleep_s(double s) { std::this_thread::sleep_for(std::chrono::duration<double>(s)); }
 
@@ -58,7 +51,7 @@ class Daemon : public testing::Test {
   /// What `landfix can decode` says of the frames that candump saw.
   [[nodiscard]] static nlohmann::json decoded() {
     test::run(LANDFIX_PROGRAM " can decode " + path("bus.log") + " --json >" + path("decoded.json"));
-    return nlohmann::json::parse(text_of(path("decoded.json")));
+    return nlohmann::json::parse(test::text_of(path("decoded.json")));
   }
   [[nodiscard]] static std::size_t count(const nlohmann::json& report, const std::string& state) {
     std::size_t poses = 0;
@@ -80,19 +73,19 @@ TEST_F(Daemon, PublishesOnTheBusAtItsRate) {
   daemon_process.stop();
   sleep_s(0.3);
   dump.stop();
-  EXPECT_EQ(daemon_process.exit_code(), 0) << text_of(path("daemon.out"));
+  EXPECT_EQ(daemon_process.exit_code(), 0) << test::text_of(path("daemon.out"));
   const nlohmann::json report = decoded();
   for (const char* const fault : {"wrong_crc", "repeated", "lost", "wrong_sequence", "out_of_order"}) {
     EXPECT_EQ(report["fault_counts"][fault], 0) << fault;
   }
-  EXPECT_GT(count(report, "TRACKING"), 100U) << text_of(path("daemon.out"));
+  EXPECT_GT(count(report, "TRACKING"), 100U) << test::text_of(path("daemon.out"));
   EXPECT_EQ(report["poses"].back()["state"], "NO_DATA") << "the last that is said";
   // 20 a second, in order, over all of it.
   const auto& poses = report["poses"];
   const double seconds = 1e-9 * static_cast<double>(poses.back()["stamp_utc_ns"].get<std::int64_t>() -
                                                     poses.front()["stamp_utc_ns"].get<std::int64_t>());
   EXPECT_NEAR(static_cast<double>(poses.size()) / seconds, 20.0, 3.0);
-  EXPECT_EQ(nlohmann::json::parse(text_of(path("top.json")))["can"]["state"], "up");
+  EXPECT_EQ(nlohmann::json::parse(test::text_of(path("top.json")))["can"]["state"], "up");
 }
 
 TEST_F(Daemon, ComesBackWithTheInterface) {
@@ -106,7 +99,7 @@ TEST_F(Daemon, ComesBackWithTheInterface) {
   dump.stop();
   daemon_process.stop();
   EXPECT_GT(decoded()["poses"].size(), 4U) << "within a second";
-  EXPECT_THAT(text_of(path("daemon.out")), HasSubstr("vcan0"));
+  EXPECT_THAT(test::text_of(path("daemon.out")), HasSubstr("vcan0"));
 }
 
 }  // namespace

@@ -13,11 +13,6 @@
 namespace landfix::platform {
 namespace {
 
-std::string text_of(const std::filesystem::path& path) {
-  const auto bytes = read_file(path);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 TEST(CandumpLog, WritesTheLinesOfCandump) {
   const test::TemporaryDirectory directory;
   const auto path = directory.path() / "can.log";
@@ -33,7 +28,7 @@ TEST(CandumpLog, WritesTheLinesOfCandump) {
   EXPECT_TRUE(test::send_frame(log, {.id = 0x3A9, .fd = true, .length = 0}, 3'000));
   EXPECT_FALSE(std::filesystem::exists(path));
   log.commit();
-  EXPECT_EQ(text_of(path),
+  EXPECT_EQ(test::text_of(path),
             "(1700000000.123456) can0 3A0#471387D6124CA4FE\n"
             "(0.000001) can0 00012345#AB00\n"
             "(0.000002) can0 3A9##1000000000000000000000000\n"

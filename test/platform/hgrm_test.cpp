@@ -13,7 +13,6 @@
 namespace landfix::platform {
 namespace {
 
-using test::error_of;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -92,7 +91,7 @@ TEST(Hgrm, OfNothingIsReadBack) {
 
 TEST(Hgrm, SaysInWhichLineItIsWrong) {
   const auto error = [](const std::string& text) {
-    return error_of([&text] { return parse_hgrm(text, "x.hgrm"); });
+    return test::error_of([&text] { return parse_hgrm(text, "x.hgrm"); });
   };
   EXPECT_THAT(error("hello\n"), StartsWith("x.hgrm:1: expected the title"));
   EXPECT_THAT(error(""), HasSubstr("no title"));

@@ -5,11 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "platform/nanoseconds.hpp"
+
 namespace landfix::platform {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
-constexpr std::int64_t kStart = 1'700'000'000'000 * kMs;
+constexpr std::int64_t kStart = 1'700'000'000'000 * kNs_per_ms;
 
 OdometrySettings settings_of(bool has_reverse = false) {
   OdometrySettings settings;
@@ -19,20 +20,20 @@ OdometrySettings settings_of(bool has_reverse = false) {
                          .scale = 0.01,
                          .low = -100.0,
                          .high = 100.0,
-                         .timeout_ns = 200 * kMs};
+                         .timeout_ns = 200 * kNs_per_ms};
   settings.signals[1] = {.role = OdometryRole::yaw_rate,
                          .id = 0x11,
                          .field = {.start = 0, .length = 16, .is_signed = true},
                          .scale = 0.0001,
                          .low = -3.0,
                          .high = 3.0,
-                         .timeout_ns = 200 * kMs};
+                         .timeout_ns = 200 * kNs_per_ms};
   settings.signals[2] = {.role = OdometryRole::reverse,
                          .id = 0x12,
                          .field = {.start = 0, .length = 1},
                          .low = 0.0,
                          .high = 1.0,
-                         .timeout_ns = 1000 * kMs};
+                         .timeout_ns = 1000 * kNs_per_ms};
   settings.count = has_reverse ? 3 : 2;
   return settings;
 }
@@ -54,16 +55,17 @@ class Drive : public testing::Test {
   void drive(double seconds, const Says& speed_says, bool is_tracked = true) {
     const int steps = static_cast<int>(std::lround(seconds * 100.0));
     for (int i = 0; i < steps; ++i) {
-      now_ += 10 * kMs;
+      now_ += 10 * kNs_per_ms;
       const double time_s = static_cast<double>(now_ - kStart) * 1e-9;
       const double speed = speed_says(10.0, time_s);
       if (!std::isnan(speed)) odometry_.add(frame_of(0x10, speed / 0.01), now_);
       odometry_.add(frame_of(0x11, 0.2 / 0.0001), now_);
-      if (is_tracked && (now_ - kStart) % (100 * kMs) == 0) odometry_.compare(now_ - 100 * kMs, now_, truth_);
+      if (is_tracked && (now_ - kStart) % (100 * kNs_per_ms) == 0)
+        odometry_.compare(now_ - 100 * kNs_per_ms, now_, truth_);
     }
   }
   [[nodiscard]] std::optional<ndt::MeasuredMotion> last_second() const {
-    return odometry_.motion(now_ - 1000 * kMs, now_, otherwise_);
+    return odometry_.motion(now_ - 1000 * kNs_per_ms, now_, otherwise_);
   }
 
   static constexpr auto kTrue = [](double truth, double /*time_s*/) { return truth; };
@@ -138,16 +140,16 @@ TEST_F(Drive, AStuckValueIsLeftOut) {
 TEST_F(Drive, SilenceIsLeftOutAfterItsTimeOut) {
   drive(3.0, kTrue);
   drive(0.15, kSilent, false);
-  EXPECT_TRUE(odometry_.motion(now_ - 100 * kMs, now_, otherwise_)->sigma_mps);
+  EXPECT_TRUE(odometry_.motion(now_ - 100 * kNs_per_ms, now_, otherwise_)->sigma_mps);
   drive(0.85, kSilent);
-  const auto motion = odometry_.motion(now_ - 100 * kMs, now_, otherwise_);
+  const auto motion = odometry_.motion(now_ - 100 * kNs_per_ms, now_, otherwise_);
   ASSERT_TRUE(motion);
   EXPECT_EQ(motion->velocity[0], 7.0);
   EXPECT_FALSE(motion->sigma_mps);
   EXPECT_GT(odometry_.counters().silent, 5U);
   drive(1.0, kTrue);
-  EXPECT_FALSE(odometry_.motion(now_ - 1500 * kMs, now_, otherwise_)->sigma_mps) << "over the silence";
-  EXPECT_TRUE(odometry_.motion(now_ - 100 * kMs, now_, otherwise_)->sigma_mps);
+  EXPECT_FALSE(odometry_.motion(now_ - 1500 * kNs_per_ms, now_, otherwise_)->sigma_mps) << "over the silence";
+  EXPECT_TRUE(odometry_.motion(now_ - 100 * kNs_per_ms, now_, otherwise_)->sigma_mps);
 }
 
 TEST_F(Drive, AJumpIsLeftOut) {
@@ -163,10 +165,10 @@ TEST_F(Drive, AJumpIsLeftOut) {
 TEST_F(Drive, AtStandstillItKnowsThatNothingMoves) {
   truth_.setZero();
   for (int i = 0; i < 300; ++i) {
-    now_ += 10 * kMs;
+    now_ += 10 * kNs_per_ms;
     odometry_.add(frame_of(0x10, 0), now_);
     odometry_.add(frame_of(0x11, 0), now_);
-    if (i % 10 == 9) odometry_.compare(now_ - 100 * kMs, now_, truth_);
+    if (i % 10 == 9) odometry_.compare(now_ - 100 * kNs_per_ms, now_, truth_);
   }
   ASSERT_TRUE(last_second());
   EXPECT_EQ(last_second()->change.translation().norm(), 0.0);
@@ -176,10 +178,10 @@ TEST(Odometry, TheReverseGearTurnsTheSpeedAround) {
   Odometry odometry(settings_of(true));
   odometry.add(frame_of(0x10, 500), kStart);
   EXPECT_EQ(odometry.counters().invalid, 1U) << "forwards or backwards?";
-  odometry.add(frame_of(0x12, 1), kStart + 10 * kMs);
-  odometry.add(frame_of(0x10, 500), kStart + 20 * kMs);
-  EXPECT_EQ(odometry.speed().at(kStart + 25 * kMs), -5.0);
-  odometry.add(frame_of(0x10, 500), kStart + 1500 * kMs);
+  odometry.add(frame_of(0x12, 1), kStart + 10 * kNs_per_ms);
+  odometry.add(frame_of(0x10, 500), kStart + 20 * kNs_per_ms);
+  EXPECT_EQ(odometry.speed().at(kStart + 25 * kNs_per_ms), -5.0);
+  odometry.add(frame_of(0x10, 500), kStart + 1500 * kNs_per_ms);
   EXPECT_EQ(odometry.counters().invalid, 2U) << "the gear has fallen silent";
 }
 
@@ -194,7 +196,7 @@ TEST(Odometry, FourWheelsGiveSpeedAndYawRate) {
                            .scale = 0.01,
                            .low = 0.0,
                            .high = 100.0,
-                           .timeout_ns = 200 * kMs};
+                           .timeout_ns = 200 * kNs_per_ms};
   }
   Odometry odometry(settings);
   CanFrame frame{.id = 0x20, .length = 8, .data = {}};
@@ -215,8 +217,8 @@ TEST(Odometry, FramesOfOthersAndAnyTimesDoNoHarm) {
   odometry.add(frame_of(0x10, 100), kStart);
   odometry.add(frame_of(0x10, 100), kStart);  // out of order
   EXPECT_EQ(odometry.counters().jumps, 1U);
-  odometry.add(frame_of(0x10, 900), kStart - 3'600'000 * kMs);  // a clock set back: begins anew
-  EXPECT_EQ(odometry.speed().at(kStart - 3'600'000 * kMs), 9.0);
+  odometry.add(frame_of(0x10, 900), kStart - 3'600'000 * kNs_per_ms);  // a clock set back: begins anew
+  EXPECT_EQ(odometry.speed().at(kStart - 3'600'000 * kNs_per_ms), 9.0);
   EXPECT_FALSE(odometry.motion(kStart, kStart - 1, ndt::Velocity::Zero()));
   EXPECT_FALSE(odometry.motion(0, kStart, ndt::Velocity::Zero()));
 }

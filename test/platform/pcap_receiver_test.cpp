@@ -7,6 +7,7 @@
 
 #include "platform/heap_counter.hpp"
 #include "platform/monotonic_clock.hpp"
+#include "platform/nanoseconds.hpp"
 #include "platform/pace.hpp"
 #include "platform/pcap_writer.hpp"
 #include "support/error_of.hpp"
@@ -18,13 +19,12 @@ namespace {
 using namespace landfix::test;
 
 constexpr std::int64_t kStart_utc_ns = 1'700'000'000'123'456'789;
-constexpr std::int64_t kMs = 1'000'000;
-constexpr std::int64_t kInterval_ns = 2 * kMs;
+constexpr std::int64_t kInterval_ns = 2 * kNs_per_ms;
 constexpr UdpFlow kData{.source_address = 0xC0A801C9, .source_port = 2368, .destination_port = 2368};
 constexpr UdpFlow kPosition{.source_address = 0xC0A801C9, .source_port = 8308, .destination_port = 8308};
 constexpr UdpFlow kStranger{.source_address = 0xC0A801CA, .source_port = 2368, .destination_port = 2368};
 
-std::int64_t in_a_second() { return monotonic_ns() + 1000 * kMs; }
+std::int64_t in_a_second() { return monotonic_ns() + 1000 * kNs_per_ms; }
 
 class PcapReceiverTest : public testing::Test {
  protected:
@@ -51,7 +51,7 @@ TEST_F(PcapReceiverTest, DeliversEveryPacketAsFastAsTheyAreTaken) {
   PacketRing ring(128, 16);
   unsigned next = 0;
   auto status = ReceiveStatus::nothing;
-  while ((status = receiver.receive(ring, monotonic_ns() + kMs)) != ReceiveStatus::end) {
+  while ((status = receiver.receive(ring, monotonic_ns() + kNs_per_ms)) != ReceiveStatus::end) {
     if (status == ReceiveStatus::packets && next % 3 != 0) continue;  // so that the ring fills
     while (ring.waiting(1) != 0) {
       EXPECT_EQ(ring.header().receive_utc_ns, kStart_utc_ns + next * kInterval_ns);
@@ -89,12 +89,12 @@ TEST_F(PcapReceiverTest, KeepsTheRecordedPace) {
 TEST_F(PcapReceiverTest, ComesBackAtTheDeadlineWithoutAPacket) {
   PcapWriter writer(path_);
   writer.write(kData, payload(100), kStart_utc_ns);
-  writer.write(kData, payload(100), kStart_utc_ns + 1000'000 * kMs);
+  writer.write(kData, payload(100), kStart_utc_ns + 1000'000 * kNs_per_ms);
   writer.commit();
   PcapReceiver receiver({.file = path_});
   PacketRing ring(128, 4);
   EXPECT_EQ(receiver.receive(ring, in_a_second()), ReceiveStatus::packets);
-  const std::int64_t deadline_ns = monotonic_ns() + kMs;
+  const std::int64_t deadline_ns = monotonic_ns() + kNs_per_ms;
   EXPECT_EQ(receiver.receive(ring, deadline_ns), ReceiveStatus::nothing);
   EXPECT_GE(monotonic_ns(), deadline_ns);
 }

@@ -13,10 +13,10 @@ namespace {
 
 using namespace landfix::test;
 
-constexpr UdpFlow kFlow{.source_address = 0xC0A801C9,
-                        .destination_address = 0xC0A80101,
-                        .source_port = 2368,
-                        .destination_port = 2368};
+constexpr UdpFlow kWrittenFlow{.source_address = 0xC0A801C9,
+                               .destination_address = 0xC0A80101,
+                               .source_port = 2368,
+                               .destination_port = 2368};
 
 TEST(InternetChecksum, IsThatOfTheStandard) {
   // The worked example of RFC 1071, section 3: the sum is ddf2.
@@ -29,7 +29,7 @@ TEST(PcapWriter, WritesTheHeadersOfTheFormats) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "a.pcap";
   PcapWriter writer(path);
-  writer.write(kFlow, bytes({'l', 'i', 'd', 'a', 'r'}), 1'700'000'000'000'000'042);
+  writer.write(kWrittenFlow, bytes({'l', 'i', 'd', 'a', 'r'}), 1'700'000'000'000'000'042);
   writer.commit();
   const Bytes expected =
       bytes({0xA1, 0xB2, 0x3C, 0x4D, 0, 2, 0, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4, 0, 0, 0, 0, 0, 1}) +
@@ -44,7 +44,7 @@ TEST(PcapWriter, LeavesNothingBehindUnlessCommitted) {
   const TemporaryDirectory directory;
   {
     PcapWriter writer(directory.path() / "a.pcap");
-    writer.write(kFlow, payload(100), 0);
+    writer.write(kWrittenFlow, payload(100), 0);
   }
   EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
 }
@@ -52,9 +52,9 @@ TEST(PcapWriter, LeavesNothingBehindUnlessCommitted) {
 TEST(PcapWriter, RefusesWhatTheFormatsCannotHold) {
   const TemporaryDirectory directory;
   PcapWriter writer(directory.path() / "a.pcap");
-  EXPECT_THROW(writer.write(kFlow, payload(65508), 0), std::runtime_error);
-  EXPECT_THROW(writer.write(kFlow, payload(10), -1), std::runtime_error);
-  EXPECT_THROW(writer.write(kFlow, payload(10), std::int64_t{1} << 62), std::runtime_error);
+  EXPECT_THROW(writer.write(kWrittenFlow, payload(65508), 0), std::runtime_error);
+  EXPECT_THROW(writer.write(kWrittenFlow, payload(10), -1), std::runtime_error);
+  EXPECT_THROW(writer.write(kWrittenFlow, payload(10), std::int64_t{1} << 62), std::runtime_error);
   EXPECT_THROW(PcapWriter(directory.path() / "b.pcap", 67), std::runtime_error);
 }
 

@@ -10,8 +10,6 @@
 namespace landfix::platform {
 namespace {
 
-using test::error_of;
-
 class SavedPoseFile : public ::testing::Test {
  protected:
   void SetUp() override { std::filesystem::create_directories(path.parent_path()); }
@@ -33,13 +31,13 @@ TEST_F(SavedPoseFile, ComesBack) {
 
 TEST_F(SavedPoseFile, IsRefusedWhereItIsNotOne) {
   write("[saved]\npose = [1, 2, 3]\nmap_checksum = 1\n");
-  EXPECT_NE(error_of([&] { (void)read_saved_pose(path); }).find("saved.pose"), std::string::npos);
+  EXPECT_NE(test::error_of([&] { (void)read_saved_pose(path); }).find("saved.pose"), std::string::npos);
   write("[saved]\npose = [1, 2, 3, 0, 0, 0]\n");
-  EXPECT_NE(error_of([&] { (void)read_saved_pose(path); }).find("map_checksum"), std::string::npos);
+  EXPECT_NE(test::error_of([&] { (void)read_saved_pose(path); }).find("map_checksum"), std::string::npos);
   write("[sav");
-  EXPECT_NE(error_of([&] { (void)read_saved_pose(path); }).find("pose.toml"), std::string::npos);
+  EXPECT_NE(test::error_of([&] { (void)read_saved_pose(path); }).find("pose.toml"), std::string::npos);
   std::filesystem::remove(path);
-  EXPECT_NE(error_of([&] { (void)read_saved_pose(path); }).find("pose.toml"), std::string::npos);
+  EXPECT_NE(test::error_of([&] { (void)read_saved_pose(path); }).find("pose.toml"), std::string::npos);
 }
 
 }  // namespace

@@ -5,10 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "platform/nanoseconds.hpp"
+
 namespace landfix::platform {
 namespace {
-
-constexpr std::int64_t kMs = 1'000'000;
 
 struct Sent {
   std::vector<std::int64_t> at_ns;
@@ -19,10 +19,10 @@ struct Sent {
 [[nodiscard]] Sent run(double rate_hz, std::int64_t late_ms) {
   SendSchedule schedule(rate_hz);
   Sent sent;
-  std::int64_t last_fix_ns = -1000 * kMs;
+  std::int64_t last_fix_ns = -1000 * kNs_per_ms;
   int sweeps = 0;
-  for (std::int64_t now = 0; now < 2000 * kMs; now += kMs / 10) {
-    if (now >= (50 + 100 * sweeps + sweeps % 2 * late_ms) * kMs) {
+  for (std::int64_t now = 0; now < 2000 * kNs_per_ms; now += kNs_per_ms / 10) {
+    if (now >= (50 + 100 * sweeps + sweeps % 2 * late_ms) * kNs_per_ms) {
       schedule.take_fix(now);
       last_fix_ns = now;
       ++sweeps;
@@ -30,7 +30,7 @@ struct Sent {
     if (now < schedule.due_ns()) continue;
     schedule.sent(now);
     sent.at_ns.push_back(now);
-    if (now - last_fix_ns < kMs) ++sent.fresh;
+    if (now - last_fix_ns < kNs_per_ms) ++sent.fresh;
   }
   return sent;
 }
@@ -38,7 +38,7 @@ struct Sent {
 [[nodiscard]] std::vector<std::int64_t> gaps_ms(const Sent& sent) {
   std::vector<std::int64_t> gaps;
   for (std::size_t i = 6; i < sent.at_ns.size(); ++i)
-    gaps.push_back((sent.at_ns[i] - sent.at_ns[i - 1]) / kMs);
+    gaps.push_back((sent.at_ns[i] - sent.at_ns[i - 1]) / kNs_per_ms);
   return gaps;
 }
 
@@ -65,7 +65,7 @@ TEST(SendSchedule, FillsTheTimeBetweenSweepsAtAHigherRate) {
 TEST(SendSchedule, KeepsItsRateWithoutSweeps) {
   SendSchedule schedule(20.0);
   int sent = 0;
-  for (std::int64_t now = 0; now < 1000 * kMs; now += kMs) {
+  for (std::int64_t now = 0; now < 1000 * kNs_per_ms; now += kNs_per_ms) {
     if (now < schedule.due_ns()) continue;
     schedule.sent(now);
     ++sent;

@@ -8,6 +8,7 @@
 
 #include "platform/heap_counter.hpp"
 #include "platform/monotonic_clock.hpp"
+#include "platform/nanoseconds.hpp"
 #include "support/error_of.hpp"
 #include "support/frames.hpp"
 #include "support/udp_sender.hpp"
@@ -18,7 +19,6 @@ namespace {
 using namespace landfix::test;
 using testing::HasSubstr;
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::size_t kSlot_bytes = 1248;
 constexpr std::uint32_t kHost = loopback(1);
 constexpr std::uint32_t kSensor = loopback(1);
@@ -76,7 +76,7 @@ TEST(UdpReceiver, StampsAPacketByBothClocksWhenTheKernelHadIt) {
   EXPECT_GE(header.arrived_mono_ns, before_ns - 1'000'000);  // two clocks are read one after the other
   EXPECT_LE(header.arrived_mono_ns, header.taken_mono_ns);
   EXPECT_GE(header.taken_mono_ns, sent_ns);
-  EXPECT_GT(header.receive_utc_ns, 1'700'000'000 * kSecond_ns);
+  EXPECT_GT(header.receive_utc_ns, 1'700'000'000 * kNs_per_s);
 }
 
 TEST(UdpReceiver, WaitsForNothingUntilTheDeadline) {

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -13,11 +11,6 @@
 #include "support/test_data.hpp"
 
 namespace landfix::test {
-
-[[nodiscard]] inline std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 /// A folder with capture.pcap, truth.tum, map.ndt and config.toml.
 class BlockDrive {

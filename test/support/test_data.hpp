@@ -3,6 +3,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <system_error>
 
@@ -17,6 +19,12 @@ namespace landfix::test {
   if (folder == nullptr) return {};
   const std::filesystem::path path = std::filesystem::path(folder) / name;
   return std::filesystem::exists(path) ? path : std::filesystem::path();
+}
+
+/// All of a file; empty where there is none.
+[[nodiscard]] inline std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 /// A folder that is gone when the test is.

@@ -24,6 +24,7 @@
 #include "ndt/pose.hpp"
 #include "platform/can_frame.hpp"
 #include "platform/candump_log.hpp"
+#include "platform/nanoseconds.hpp"
 #include "platform/saved_pose.hpp"
 #include "platform/trajectory.hpp"
 #include "support/block_drive.hpp"
@@ -41,7 +42,6 @@ namespace {
 using test::OwnedPacket;
 using test::PacketList;
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::size_t kPayload = 1206;
 /// When the faults begin and end, from the start of the drive [s].
 constexpr double kFrom_s = 5.03;
@@ -259,14 +259,14 @@ TEST_F(Faults, PacketsInTheWrongOrderOrTwice) {
 }
 
 TEST_F(Faults, ClockSteps) {
-  constexpr std::int64_t kHour_ns = 3600 * kSecond_ns;
+  constexpr std::int64_t kHour_ns = 3600 * platform::kNs_per_s;
   const std::array<std::pair<const char*, std::int64_t>, 6> leaps{
       {{"clock 1 h forward", kHour_ns},
        {"clock 1 h back", -kHour_ns},
        {"clock 1 day forward", 24 * kHour_ns},
        {"clock 1 h 20 min forward", kHour_ns * 4 / 3},
-       {"clock 40 s forward", 40 * kSecond_ns},
-       {"clock 40 s back", -40 * kSecond_ns}}};
+       {"clock 40 s forward", 40 * platform::kNs_per_s},
+       {"clock 40 s back", -40 * platform::kNs_per_s}}};
   for (const std::uint32_t sensor_off_us : {0U, 1'234'567'890U}) {
     for (const auto& [name, leap_ns] : leaps) {
       const std::string full = fmt::format("{}, {} time", name, sensor_off_us == 0 ? "sensor" : "receive");
@@ -371,7 +371,7 @@ class DownBus final : public platform::FrameSink {
 
 TEST_F(Faults, ABusThatIsDown) {
   const std::int64_t start_ns = packets().front().packet.receive_utc_ns;
-  DownBus bus(start_ns + 5 * kSecond_ns, start_ns + 15 * kSecond_ns);
+  DownBus bus(start_ns + 5 * platform::kNs_per_s, start_ns + 15 * platform::kNs_per_s);
   const Fault fault{.name = "bus down for 10 s", .spoil = [](const PacketList& packets) { return packets; }};
   const ReplayResult result = replay(packets(), &bus);
   expect_survival(fault, result);

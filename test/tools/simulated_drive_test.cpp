@@ -3,7 +3,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <random>
@@ -39,11 +38,6 @@ using testing::HasSubstr;
 using test::Outcome;
 
 Outcome landfix(const std::vector<std::string>& words) { return test::run_landfix(words); }
-
-[[nodiscard]] std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 /// 120 m of the street, simulated once for all tests.
 class SimulatedDrive : public testing::Test {
@@ -123,7 +117,7 @@ TEST_F(SimulatedDrive, MakesNoHeapCallFromPacketToPose) {
 }
 
 TEST_F(SimulatedDrive, IsFollowedWithEveryFilterAndNoHeapCall) {
-  const std::string config = text_of(path("config.toml"));
+  const std::string config = test::text_of(path("config.toml"));
   const std::string section = "[filter]\n";
   const std::size_t place = config.find(section) + section.size();
   std::vector<double> points;
@@ -152,17 +146,17 @@ TEST_F(SimulatedDrive, ReplaysToTheSameBytes) {
                   .code,
               0);
   }
-  EXPECT_GT(text_of(path("1.tum")).size(), 1000U);
-  EXPECT_EQ(text_of(path("1.tum")), text_of(path("2.tum")));
-  EXPECT_GT(text_of(path("1.log")).size(), 1000U);
-  EXPECT_EQ(text_of(path("1.log")), text_of(path("2.log")));
-  EXPECT_EQ(text_of(path("1.svg")), text_of(path("2.svg")));
+  EXPECT_GT(test::text_of(path("1.tum")).size(), 1000U);
+  EXPECT_EQ(test::text_of(path("1.tum")), test::text_of(path("2.tum")));
+  EXPECT_GT(test::text_of(path("1.log")).size(), 1000U);
+  EXPECT_EQ(test::text_of(path("1.log")), test::text_of(path("2.log")));
+  EXPECT_EQ(test::text_of(path("1.svg")), test::text_of(path("2.svg")));
 }
 
 TEST_F(SimulatedDrive, WithAWindowOfTheMapThePosesAreThoseOfTheWholeMap) {
   const double map_mib = static_cast<double>(std::filesystem::file_size(path("map.ndt"))) / (1 << 20);
   const auto write_config = [](const std::string& name, double memory_mib) {
-    std::string text = text_of(path("config.toml"));
+    std::string text = test::text_of(path("config.toml"));
     text.replace(text.find("[map]"), 5, fmt::format("[map]\nmemory_mib = {:.3f}", memory_mib));
     text.replace(text.find("[sensor]"), 8, "[sensor]\nmax_range_m = 20.0");
     std::ofstream(path(name)) << text;
@@ -179,12 +173,12 @@ TEST_F(SimulatedDrive, WithAWindowOfTheMapThePosesAreThoseOfTheWholeMap) {
     EXPECT_GE(report["tracked"].get<int>() + 1, report["sweeps"].get<int>());
     EXPECT_TRUE(report["heap_calls"].is_null() || report["heap_calls"] == 0);
   }
-  EXPECT_GT(text_of(path("whole.tum")).size(), 1000U);
-  EXPECT_EQ(text_of(path("window.tum")), text_of(path("whole.tum")));
+  EXPECT_GT(test::text_of(path("whole.tum")).size(), 1000U);
+  EXPECT_EQ(test::text_of(path("window.tum")), test::text_of(path("whole.tum")));
 }
 
 TEST_F(SimulatedDrive, SendsItsPosesAsProtectedFrames) {
-  std::ofstream(path("fd.toml")) << text_of(path("config.toml")) << "\n[can]\nfd = true\n";
+  std::ofstream(path("fd.toml")) << test::text_of(path("config.toml")) << "\n[can]\nfd = true\n";
   for (const std::string config : {"config.toml", "fd.toml"}) {
     ASSERT_EQ(landfix({"replay", "--config", path(config), "--pcap", path("capture.pcap"), "--map",
                        path("map.ndt"), "--trajectory", path("t.tum"), "--candump", path("t.log")})
@@ -259,7 +253,7 @@ TEST_F(SimulatedDrive, GarbageIsCountedAndChangesNoPose) {
   platform::Pipeline pipeline(setup.settings, setup.decoder, setup.map(), nullptr);
   GarbageSource source(path("capture.pcap"));
   const ReplayResult result = run_replay(source, pipeline, [](const platform::SweepResult&) {});
-  EXPECT_EQ(platform::format_tum(result.trajectory()), text_of(path("clean.tum")));
+  EXPECT_EQ(platform::format_tum(result.trajectory()), test::text_of(path("clean.tum")));
   EXPECT_GT(source.garbage(), 1000U);
   EXPECT_GT(pipeline.counters().rejected(), source.garbage() / 2);
   EXPECT_GT(pipeline.counters().other_ports, source.garbage() / 8);
@@ -356,10 +350,10 @@ TEST_F(SimulatedDrive, MissingSweepsArePredicted) {
   EXPECT_EQ(result.sweeps.end()[-2].fix.state, ndt::State::tracking);
   expect_tracking_is_true(result, path("truth.tum"));
   EXPECT_TRUE(!result.heap_calls || *result.heap_calls == 0U);
-  const std::string first = text_of(path("silence0.3.log"));
+  const std::string first = test::text_of(path("silence0.3.log"));
   EXPECT_EQ(platform::format_tum(replay_with_silence(path(""), 0.3).trajectory()),
             platform::format_tum(poses));
-  EXPECT_EQ(text_of(path("silence0.3.log")), first);
+  EXPECT_EQ(test::text_of(path("silence0.3.log")), first);
 }
 
 TEST_F(SimulatedDrive, ASilentSensorIsNoDataAfterASecond) {
@@ -382,7 +376,7 @@ TEST_F(SimulatedDrive, ASilentSensorIsNoDataAfterASecond) {
 }
 
 TEST_F(SimulatedDrive, ACaptureThatIsCutShortGivesThePosesThatItHolds) {
-  const std::string whole = text_of(path("capture.pcap"));
+  const std::string whole = test::text_of(path("capture.pcap"));
   std::ofstream(path("cut.pcap"), std::ios::binary) << whole.substr(0, whole.size() / 3 + 11);
   const Outcome outcome =
       landfix({"replay", "--config", path("config.toml"), "--pcap", path("cut.pcap"), "--json"});
@@ -399,7 +393,7 @@ TEST_F(SimulatedDrive, MistakesAreOneLineThatSaysWhatToDo) {
     EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
     EXPECT_EQ(outcome.out, "");
   };
-  const std::string config = text_of(path("config.toml"));
+  const std::string config = test::text_of(path("config.toml"));
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string changed = config;
     changed.replace(changed.find(from), from.size(), to);

@@ -111,7 +111,9 @@ TEST(TraceWriter, SaysHowLongThingsTake) {
   TraceWriter writer(directory.path() / "trace.json");
   writer.add(sweep_at(0));
   writer.commit();
-  for (const json& event : read(directory.path() / "trace.json")["traceEvents"]) {
+  const json trace = read(directory.path() / "trace.json");
+  ASSERT_EQ(count(trace, "X", "match"), 1U);
+  for (const json& event : trace["traceEvents"]) {
     if (event["name"] != "match") continue;
     EXPECT_NEAR(event["dur"].get<double>(), 1000.0, 1e-9);
     EXPECT_NEAR(event["ts"].get<double>(), 100'200.0, 1e-9);

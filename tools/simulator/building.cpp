@@ -9,7 +9,7 @@ namespace landfix::tools::simulator {
 namespace {
 
 constexpr double kFloor_m = 3.0;
-constexpr double kBelowGround_m = 0.4;
+constexpr double kFoundation_m = 0.4;
 
 /// What the walls of one house have in common.
 struct Style {
@@ -85,10 +85,9 @@ void add_balcony(Mesh& mesh, const Place& wall, double centre_m, double floor_m)
 /// A wall of `width_m`, its bays above the plinth filled with windows; a front has a door and balconies.
 void add_wall(Mesh& mesh, const Place& wall, double width_m, double height_m, double plinth_m,
               const Style& style, bool front, Random& random) {
-  add_quad(
-      mesh, wall,
-      {{{0, 0, -kBelowGround_m}, {width_m, 0, -kBelowGround_m}, {width_m, 0, plinth_m}, {0, 0, plinth_m}}},
-      Surface::concrete);
+  add_quad(mesh, wall,
+           {{{0, 0, -kFoundation_m}, {width_m, 0, -kFoundation_m}, {width_m, 0, plinth_m}, {0, 0, plinth_m}}},
+           Surface::concrete);
   const int bays = std::max(1, static_cast<int>(width_m / style.bay_m));
   const int floors = std::max(1, static_cast<int>((height_m - plinth_m) / kFloor_m));
   const double bay_m = width_m / bays;

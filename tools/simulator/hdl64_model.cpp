@@ -13,8 +13,8 @@ namespace landfix::tools::simulator {
 namespace {
 
 constexpr std::size_t kLasersPerBlock = 32;
-constexpr std::size_t kShotsPerPacket = velodyne::kBlocks * kLasersPerBlock;
-constexpr double kRangeUnit_m = 0.002;
+constexpr std::size_t kHdl64ShotsPerPacket = velodyne::kBlocks * kLasersPerBlock;
+constexpr double kHdl64RangeUnit_m = 0.002;
 
 // S2 and S3: lasers k of both blocks fire together, 48 us for all; S1: a block every 32 us.
 constexpr std::int64_t kFiring_ns = 48'000;
@@ -30,7 +30,7 @@ constexpr LidarTraits traits_of(std::string_view name, std::int64_t packet_ns) n
           .data_port = velodyne::kDataPort,
           .telemetry_port = 0,
           .packet_ns = packet_ns,
-          .shots_per_packet = kShotsPerPacket,
+          .shots_per_packet = kHdl64ShotsPerPacket,
           .min_range_m = 2.0,  // the corrections leave nothing to measure of less
           .max_range_m = 120.0,
           .range_sigma_m = 0.01};
@@ -105,7 +105,7 @@ class Hdl64Model final : public LidarModel {
   }
 
   void aim(std::int64_t utc_ns, std::span<Shot> shots) const noexcept override {
-    for (std::size_t i = 0; i < kShotsPerPacket; ++i) {
+    for (std::size_t i = 0; i < kHdl64ShotsPerPacket; ++i) {
       const std::size_t block = i / kLasersPerBlock;
       const std::size_t slot = i % kLasersPerBlock;
       const Hdl64UnitLaser& laser = unit_[laser_of(block, slot)];
@@ -133,7 +133,7 @@ class Hdl64Model final : public LidarModel {
       for (std::size_t slot = 0; slot < kLasersPerBlock; ++slot) {
         Echo echo = echoes[block * kLasersPerBlock + slot];
         if (echo.range_m != 0.0) echo.range_m -= 1e-3 * unit_[laser_of(block, slot)].range_mm;
-        data.put_return(block, slot, echo, kRangeUnit_m);
+        data.put_return(block, slot, echo, kHdl64RangeUnit_m);
       }
     }
     put_tail(packet, utc_ns, data);

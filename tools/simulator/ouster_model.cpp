@@ -16,7 +16,7 @@ namespace {
 
 using namespace ouster;
 
-constexpr std::int64_t kTurn_ns = 100'000'000;
+constexpr std::int64_t kOusterTurn_ns = 100'000'000;
 constexpr std::uint32_t kInitId = 7'109'750;
 constexpr std::uint64_t kSerialNumber = 122'201'000'998;
 constexpr std::size_t kRowsOfOldFirmware = 64;
@@ -61,7 +61,7 @@ class OusterModel final : public LidarModel {
       }
     }
     return lidar_packet(format_,
-                        {.frame_id = static_cast<std::uint32_t>(utc_ns / kTurn_ns) & 0xFFFF,
+                        {.frame_id = static_cast<std::uint32_t>(utc_ns / kOusterTurn_ns) & 0xFFFF,
                          .first_column = first_column(utc_ns),
                          .utc_ns = utc_ns,
                          .column_ns = column_ns()},
@@ -88,21 +88,22 @@ class OusterModel final : public LidarModel {
             .init_id = kInitId};
   }
   static LidarTraits traits_of(const Unit& unit) {
-    return {.name = unit.name,
-            .data_port = kLidarPort,
-            .telemetry_port = kImuPort,
-            .packet_ns = kTurn_ns / static_cast<std::int64_t>(unit.columns_per_turn / kColumnsPerPacket),
-            .shots_per_packet = kColumnsPerPacket * unit.beams,
-            .min_range_m = unit.min_range_m,
-            .max_range_m = unit.max_range_m,
-            .range_sigma_m = unit.range_sigma_m};
+    return {
+        .name = unit.name,
+        .data_port = kLidarPort,
+        .telemetry_port = kImuPort,
+        .packet_ns = kOusterTurn_ns / static_cast<std::int64_t>(unit.columns_per_turn / kColumnsPerPacket),
+        .shots_per_packet = kColumnsPerPacket * unit.beams,
+        .min_range_m = unit.min_range_m,
+        .max_range_m = unit.max_range_m,
+        .range_sigma_m = unit.range_sigma_m};
   }
 
   [[nodiscard]] std::int64_t column_ns() const noexcept {
     return traits_.packet_ns / static_cast<std::int64_t>(kColumnsPerPacket);
   }
   [[nodiscard]] std::size_t first_column(std::int64_t utc_ns) const noexcept {
-    return static_cast<std::size_t>(utc_ns % kTurn_ns / traits_.packet_ns) * kColumnsPerPacket;
+    return static_cast<std::size_t>(utc_ns % kOusterTurn_ns / traits_.packet_ns) * kColumnsPerPacket;
   }
   /// Old firmware leaves three of four rows empty for 16 beams (suffix A0 of the product line).
   [[nodiscard]] std::size_t row_of(std::size_t beam) const noexcept {

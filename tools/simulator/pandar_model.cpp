@@ -18,7 +18,7 @@ constexpr std::int64_t kBlock_ns = 55'560;
 /// Where the beams start, in the frame of the rotor: x forward, y left.
 constexpr double kCentreForward_m = 0.03873;
 constexpr double kCentreLeft_m = 0.012;
-constexpr double kRangeUnit_m = 0.004;
+constexpr double kPandarRangeUnit_m = 0.004;
 
 constexpr LidarTraits traits_of(std::string_view name, std::size_t blocks, std::size_t channels) noexcept {
   return {.name = name,
@@ -85,7 +85,7 @@ class PandarModel final : public LidarModel {
       if (echoes[i].range_m == 0.0) continue;
       // The sensor measures from its centre, although the beam starts beside it.
       const double range_m = (shots[i].origin_m + echoes[i].range_m * shots[i].direction()).norm();
-      payload.put_return(i / unit_.size(), i % unit_.size(), to_range_raw(range_m, kRangeUnit_m),
+      payload.put_return(i / unit_.size(), i % unit_.size(), to_range_raw(range_m, kPandarRangeUnit_m),
                          echoes[i].reflectivity);
     }
     for (std::size_t block = 0; block < form_.blocks; ++block) {

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "platform/atomic_file.hpp"
+#include "platform/nanoseconds.hpp"
 #include "platform/pcap_writer.hpp"
 #include "platform/pcd_writer.hpp"
 #include "platform/trajectory.hpp"
@@ -22,7 +23,6 @@
 namespace landfix::tools::simulator {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::uint32_t kSensorAddress = 0xC0A801C9;  // 192.168.1.201, the maker's default
 constexpr double kLeaf_m = 2.0;
 constexpr double kResolution_m = 1.0;
@@ -94,7 +94,7 @@ void write_capture(const Drive& drive, const std::filesystem::path& path, const 
       if (lidar.telemetry_port != 0 && telemetry_utc_ns < receive_utc_ns) {
         const GpsFix fix = gps_fix(drive.vehicle(), telemetry_utc_ns);
         capture.write(telemetry, drive.lidar().encode_telemetry(fix), telemetry_utc_ns);
-        telemetry_utc_ns += kSecond_ns;
+        telemetry_utc_ns += platform::kNs_per_s;
         ++summary.telemetry_packets;
       }
       capture.write(data, payloads[i], receive_utc_ns);

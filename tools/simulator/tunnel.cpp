@@ -9,7 +9,7 @@
 namespace landfix::tools::simulator {
 namespace {
 
-constexpr double kBelowGround_m = 0.15;
+constexpr double kWallFoot_m = 0.15;
 constexpr double kNicheStep_m = 0.02;
 
 class TunnelBuilder {
@@ -39,7 +39,7 @@ class TunnelBuilder {
   using Section = std::vector<Eigen::Vector2d>;
 
   [[nodiscard]] Section wall(double across_m) const {
-    return {{across_m, -kBelowGround_m}, {across_m, tunnel_.wall_height_m}};
+    return {{across_m, -kWallFoot_m}, {across_m, tunnel_.wall_height_m}};
   }
 
   [[nodiscard]] Section vault() const {

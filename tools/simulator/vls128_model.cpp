@@ -18,7 +18,7 @@ constexpr std::array<std::uint16_t, kBanks> kBankFlags{0xEEFF, 0xDDFF, 0xCCFF, 0
 constexpr double kSlot_ns = 2'763.9;
 constexpr double kSequence_ns = 20.0 * kSlot_ns;
 constexpr std::int64_t kStampAfterFirstFiring_ns = 8'700;
-constexpr double kRangeUnit_m = 0.004;
+constexpr double kVls128RangeUnit_m = 0.004;
 constexpr std::uint8_t kProduct = 0xA1;
 
 constexpr LidarTraits traits(std::string_view name) noexcept {
@@ -66,7 +66,7 @@ class Vls128Model final : public LidarModel {
       const std::int64_t sequence_utc_ns = utc_ns + sequence_after_ns(block / kBanks);
       packet.put_block(block, kBankFlags[block % kBanks], rotor_angle_centideg(sequence_utc_ns));
       for (std::size_t slot = 0; slot < kBankLasers; ++slot) {
-        packet.put_return(block, slot, echoes[block * kBankLasers + slot], kRangeUnit_m);
+        packet.put_return(block, slot, echoes[block * kBankLasers + slot], kVls128RangeUnit_m);
       }
     }
     packet.put_time(utc_ns + kStampAfterFirstFiring_ns);
