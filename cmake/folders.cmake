@@ -14,6 +14,10 @@ if(LANDFIX_SANITIZE)
     -fsanitize=${LANDFIX_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>) # gcc 12 sees phantoms in the standard library's instrumented code
   target_link_options(landfix_options INTERFACE -fsanitize=${LANDFIX_SANITIZE})
+  if(LANDFIX_SANITIZE MATCHES undefined AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    target_compile_options(landfix_options INTERFACE
+      -fsanitize-ignorelist=${CMAKE_CURRENT_LIST_DIR}/undefined_behaviour_ignored.txt)
+  endif()
 endif()
 
 # Of what is not hot, the time to compile counts, most of all where sanitizers swell the code.
