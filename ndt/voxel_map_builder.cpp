@@ -113,6 +113,10 @@ MapImage VoxelMapBuilder::build() const {
   std::vector<TileBlock> blocks;
   blocks.reserve(placed.size());
   for (const PlacedBlock& block : placed) blocks.push_back(block.in_map);
+  if (points_ == 0 && skipped_points_ != 0) {
+    throw std::runtime_error(fmt::format("all {} points lie beyond the lattice, which reaches to {:.0f} m",
+                                         skipped_points_, kMaxCell * resolution_m_));
+  }
   if (blocks.empty()) {
     throw std::runtime_error(fmt::format(
         "no voxel of {} m has the {} points it needs: {} points in {} cells; choose a coarser resolution "

@@ -133,13 +133,16 @@ void align(const AlignArguments& arguments) {
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
   const double fitness_score = ndt::FitnessScore(map)(points_m, result.pose);
   (arguments.json ? print_json : print_text)(result, fitness_score, match_ms);
+  if (ndt::judge(result, {}) == ndt::Fit::none)
+    throw std::runtime_error(fmt::format("{}: the map does not explain it at this pose", arguments.scan));
 }
 
 }  // namespace
 
 void add_align_command(CLI::App& app) {
   const auto arguments = std::make_shared<AlignArguments>();
-  CLI::App& command = *app.add_subcommand("align", "the pose of one scan, from a guess");
+  CLI::App& command = *app.add_subcommand(
+      "align", "the pose of one scan, from a guess; ends with status 1 where none is to be believed");
   command.add_option("--map", arguments->map, "map, made by landfix map")->required()->type_name("MAP.ndt");
   command.add_option("--scan", arguments->scan, "scan in the vehicle frame")
       ->required()

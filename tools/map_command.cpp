@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,15 @@ void spare_clouds(const std::vector<std::filesystem::path>& clouds, const std::s
   }
 }
 
+/// Throws UsageError where a cloud's points would count double.
+void refuse_twice(const std::vector<std::filesystem::path>& clouds) {
+  std::set<std::filesystem::path> known;
+  for (const std::filesystem::path& cloud : clouds) {
+    if (!known.insert(std::filesystem::canonical(cloud)).second)
+      throw UsageError(fmt::format("--pcd: {} is given twice", cloud.string()));
+  }
+}
+
 /// Throws UsageError where the lattice does not reach.
 void check_origin(const Eigen::Vector3d& origin_m, double resolution_m) {
   if (ndt::has_cell(origin_m / resolution_m)) return;
@@ -72,6 +82,7 @@ void make_map(const MapArguments& arguments) {
     const auto found = list_clouds(cloud);
     files.insert(files.end(), found.begin(), found.end());
   }
+  refuse_twice(files);
   const Eigen::Vector3d origin_m(arguments.origin_m[0], arguments.origin_m[1], arguments.origin_m[2]);
   spare_clouds(files, arguments.output);
   check_origin(origin_m, arguments.resolution_m);

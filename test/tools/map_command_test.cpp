@@ -141,6 +141,23 @@ TEST_F(MapCommand, NeverTakesThePlaceOfACloud) {
   EXPECT_EQ(std::filesystem::file_size(path("a.pcd")), bytes);
 }
 
+TEST_F(MapCommand, CountsNoCloudTwice) {
+  write("a.pcd", ground_from(0, 0));
+  std::filesystem::create_symlink(path("a.pcd"), path("b.pcd"));
+  for (const std::vector<std::string>& words : {std::vector{path("a.pcd"), path("a.pcd")}, {path("")}}) {
+    const test::Outcome outcome = map(words);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.error, HasSubstr("is given twice"));
+  }
+}
+
+TEST_F(MapCommand, SaysThatAllPointsLieBeyondTheLattice) {
+  write("a.pcd", ground_from(1'000'000'000, 0));
+  const test::Outcome outcome = map({path("a.pcd")});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.error, HasSubstr("points lie beyond the lattice, which reaches to 4194304 m"));
+}
+
 TEST_F(MapCommand, RefusesAnOriginWhereNoCellIs) {
   write("a.pcd", ground_from(0, 0));
   for (const std::string origin : {"1e12,0,0", "0,nan,0"}) {
