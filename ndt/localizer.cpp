@@ -48,11 +48,12 @@ Fix Localizer::localize(std::span<const Eigen::Vector3f> points_m, std::int64_t 
   begin_time(stamp_utc_ns);
   reckoning_.pass(seconds_between(last_, stamp_utc_ns), sigma_of(measured));
   Fix fix{.at = {stamp_utc_ns, predicted_pose(stamp_utc_ns, measured)}};
-  if (state_ == State::lost) {
-    recover(fix, recovery_.look(matcher_, map_, points_m, fix.at, deadline));
+  if (state_ == State::lost || !has_pose_) {
+    recover(fix, recovery_.look(matcher_, map_, points_m, fix.at, guess_, deadline));
   } else {
     fix.match = matcher_.match(map_, points_m, fix.at.pose, reckoning_.sigma_m(), deadline);
     fix.state = next_state(fix);
+    if (fix.state == State::init && guess_) has_pose_ = false;  // it is not there
   }
   if (fix.state >= State::degraded) {
     take_match(fix);
@@ -143,10 +144,17 @@ State Localizer::next_state(const Fix& fix) const noexcept {
   const bool is_anchored = fix.match.weak.count == 0 ||
                            seconds_between(last_matched_, fix.at.stamp_utc_ns) <= settings_.lost_after_s;
   const Fit fit = judge(fix.match, settings_.gates);
-  if (fit != Fit::none && ((is_near && is_anchored) || state_ == State::init)) {
+  const bool is_believed = state_ == State::init ? agrees_with_guess(fix.match.pose) : is_near && is_anchored;
+  if (fit != Fit::none && is_believed) {
     return fit == Fit::good && fix.match.weak.count == 0 ? State::tracking : State::degraded;
   }
   return state_without_match(fix.at.stamp_utc_ns);
+}
+
+bool Localizer::agrees_with_guess(const Pose& pose) const noexcept {
+  constexpr double kMargin_m = 2.0;
+  return !guess_ ||
+         (pose.translation().head<2>() - guess_->position_m).norm() <= guess_->within_m + kMargin_m;
 }
 
 State Localizer::state_without_match(std::int64_t stamp_utc_ns) const noexcept {
@@ -180,10 +188,15 @@ void Localizer::take_match(Fix& fix) noexcept {
 /// What was confirmed goes on from the sweep before, not from where the vehicle was lost.
 void Localizer::recover(Fix& fix, const Sighting& sighting) noexcept {
   fix.match = sighting.match;
-  fix.state = sighting.confirmed ? State::tracking : State::lost;
-  if (!sighting.confirmed) return;
-  last_matched_ = sighting.before;
-  clock_was_set_ = false;
+  fix.state = sighting.confirmed ? State::tracking : state_;
+  if (sighting.confirmed) {
+    last_matched_ = sighting.before;
+    clock_was_set_ = false;
+    has_pose_ = true;
+    state_ = State::lost;  // in which it is found: its motion is known
+  } else if (state_ == State::init && guess_) {
+    fix.at.pose.translation().head<2>() = guess_->position_m;  // around which the map is needed
+  }
 }
 
 void Localizer::stand_still(const Pose& pose) noexcept {

@@ -14,6 +14,7 @@
 #include "ndt/matcher.hpp"
 #include "ndt/measured_motion.hpp"
 #include "ndt/motion.hpp"
+#include "ndt/pose_guess.hpp"
 #include "ndt/recovery.hpp"
 #include "ndt/voxel_map.hpp"
 
@@ -56,7 +57,8 @@ enum class Fit : std::uint8_t {
 struct LocalizerSettings {
   MatcherSettings matcher;
   FitGates gates;
-  /// A match farther from the prediction is not believed; while INIT the guess is the user's and any is.
+  /// A match farther from the prediction is not believed; while INIT the pose is the user's and any match is
+  /// that no other sensor contradicts.
   double innovation_limit_m = 1.5;
   double innovation_limit_rad = 0.15;
   /// Sooner after the sweep before, in proportion less is believed, down to this share: a packet that comes
@@ -81,8 +83,9 @@ struct Fix {
 /// One sweep after the other. Allocates in its constructor only.
 class Localizer {
  public:
-  /// The memory that `map` views must outlive it. `initial_pose`: map <- vehicle at the first sweep.
-  Localizer(const VoxelMap& map, const LocalizerSettings& settings, const Pose& initial_pose);
+  /// The memory that `map` views must outlive it. `initial_pose`: map <- vehicle at the first sweep; nothing:
+  /// it is looked for as soon as there is a guess.
+  Localizer(const VoxelMap& map, const LocalizerSettings& settings, const std::optional<Pose>& initial_pose);
 
   /// Another map of the same lattice, from the next sweep on.
   void use_map(const VoxelMap& map) noexcept { map_ = map; }
@@ -93,13 +96,19 @@ class Localizer {
     (void)matcher_.match(map_, points_m, last_.pose);
   }
 
+  /// Where the vehicle is said to be as the next sweep ends: there it is looked for, if it is, and while
+  /// LOST.
+  void expect_near(const std::optional<PoseGuess>& guess) noexcept { guess_ = guess; }
+  /// Whether a guess would be of use.
+  [[nodiscard]] bool is_searching() const noexcept { return state_ == State::lost || state_ == State::init; }
+
   /// The last published pose.
   [[nodiscard]] const Pose& pose() const noexcept { return last_.pose; }
   /// The time that it holds for: of the last sweep, or of what was measured since.
   [[nodiscard]] std::int64_t last_stamp_utc_ns() const noexcept { return last_.stamp_utc_ns; }
   /// The velocity to undo the next sweep's distortion with.
   [[nodiscard]] const Velocity& velocity() const noexcept {
-    return state_ == State::lost ? recovery_.velocity() : velocity_;
+    return is_searching() ? recovery_.velocity() : velocity_;
   }
 
   /// `points_m`: deskewed and filtered, frame `vehicle` at `stamp_utc_ns`, the end of the sweep. Where
@@ -127,6 +136,7 @@ class Localizer {
   [[nodiscard]] State next_state(const Fix& fix) const noexcept;
   [[nodiscard]] State state_without_match(std::int64_t stamp_utc_ns) const noexcept;
   [[nodiscard]] Matrix6 predicted_covariance(const DeadReckoning& reckoning, const Pose& pose) const noexcept;
+  [[nodiscard]] bool agrees_with_guess(const Pose& pose) const noexcept;
   void take_match(Fix& fix) noexcept;
   void recover(Fix& fix, const Sighting& sighting) noexcept;
   void stand_still(const Pose& pose) noexcept;
@@ -141,6 +151,8 @@ class Localizer {
   DeadReckoning reckoning_;
   SweepDistortion distortion_;
   Recovery recovery_;
+  std::optional<PoseGuess> guess_;
+  bool has_pose_;                              ///< to match the first sweep at, or it has been matched
   Matrix6 last_covariance_ = Matrix6::Zero();  ///< by a match
   State state_ = State::init;
   std::int64_t period_ns_ = 100'000'000;  ///< of the sweeps

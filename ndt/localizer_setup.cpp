@@ -2,13 +2,15 @@
 
 namespace landfix::ndt {
 
-Localizer::Localizer(const VoxelMap& map, const LocalizerSettings& settings, const Pose& initial_pose)
+Localizer::Localizer(const VoxelMap& map, const LocalizerSettings& settings,
+                     const std::optional<Pose>& initial_pose)
     : map_(map),
       settings_(settings),
       matcher_(settings.matcher),
       recovery_({.good_likelihood = settings.gates.good_likelihood,
-                 .good_matched_share = settings.gates.good_matched_share}) {
-  last_.pose = initial_pose;
+                 .good_matched_share = settings.gates.good_matched_share}),
+      has_pose_(initial_pose.has_value()) {
+  last_.pose = initial_pose.value_or(Pose::Identity());
 }
 
 }  // namespace landfix::ndt

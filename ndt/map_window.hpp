@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include "ndt/map_layout.hpp"
+#include "ndt/map_middle.hpp"
 
 namespace landfix::ndt {
 
@@ -44,6 +45,10 @@ class WindowAssembler {
   WindowAssembler(MapDirectory directory, ReadAt read_at, double radius_m);
 
   [[nodiscard]] const MapHeader& map_header() const noexcept { return directory_.header; }
+  /// Of the whole map (map_middle.hpp).
+  [[nodiscard]] Eigen::Vector3d map_middle_m() const noexcept {
+    return middle_m(directory_.blocks, directory_.header.resolution_m);
+  }
 
   /// Makes a map image in `memory`, which is aligned to 64 bytes and holds at least an empty map: of the
   /// tiles within the radius of `centre_m` as many as fit, the nearest first. A tile that cannot be had is

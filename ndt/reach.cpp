@@ -51,15 +51,18 @@ std::array<double, 3> GuessSequence::next_fractions() noexcept {
   return fractions;
 }
 
-Eigen::Vector3d GuessSequence::next(double reach_m) noexcept {
-  is_path_ = !is_path_;
+Eigen::Vector3d GuessSequence::next_around(double within_m, double heading_rad) noexcept {
   const auto [a, b, c] = next_fractions();
-  if (!is_path_) {
-    const double distance_m = reach_m * std::sqrt(a);
-    const double bearing_rad = 2.0 * std::numbers::pi * b;
-    return {distance_m * std::cos(bearing_rad), distance_m * std::sin(bearing_rad),
-            2.0 * std::numbers::pi * c};
-  }
+  const double distance_m = within_m * std::sqrt(a);
+  const double bearing_rad = 2.0 * std::numbers::pi * b;
+  return {distance_m * std::cos(bearing_rad), distance_m * std::sin(bearing_rad),
+          2.0 * heading_rad * (c < 0.5 ? c : c - 1.0)};
+}
+
+Eigen::Vector3d GuessSequence::next_on_way(double reach_m) noexcept {
+  is_path_ = !is_path_;
+  if (!is_path_) return next_around(reach_m, std::numbers::pi);
+  const auto [a, b, c] = next_fractions();
   const double length_m = reach_m * a;
   // Straight on is the likeliest.
   const double most_rad = std::min(std::numbers::pi, length_m / kTightestCurve_m);
@@ -85,6 +88,47 @@ std::optional<double> ground_m(const VoxelMap& map, const Eigen::Vector3d& place
     }
   }
   return std::nullopt;
+}
+
+std::optional<double> lowest_m(const VoxelMap& map, const Eigen::Vector2d& place_m,
+                               double within_m) noexcept {
+  const double half_block_m = 2.0 * map.resolution_m();
+  std::optional<double> lowest_m;
+  for (const BlockEntry& block : map.blocks()) {
+    if (block.occupancy == 0) continue;
+    const Cell corner = block_corner(block.key);
+    const Eigen::Vector2d middle_m =
+        map.resolution_m() * Eigen::Vector2d(corner.i, corner.j) + Eigen::Vector2d::Constant(half_block_m);
+    if ((middle_m - place_m).cwiseAbs().maxCoeff() > within_m + half_block_m) continue;
+    // Bits go up with the height, and so do the voxels of a block.
+    const Cell in_block = cell_in_block(static_cast<unsigned>(std::countr_zero(block.occupancy)));
+    const double height_m = (corner.k + in_block.k) * map.resolution_m() +
+                            static_cast<double>(map.voxels()[block.first_voxel].mean_m[2]);
+    if (!lowest_m || height_m < *lowest_m) lowest_m = height_m;
+  }
+  return lowest_m;
+}
+
+Pose on_slope(const VoxelMap& map, const Pose& pose) noexcept {
+  constexpr double kArm_m = 4.0;
+  constexpr double kWithin_m = 1.0;
+  constexpr double kSteepest_rad = 0.15;
+  const auto slope = [&](const Eigen::Vector3d& axis) -> std::optional<double> {
+    const auto ahead_m = ground_m(map, pose.translation() + kArm_m * axis, kWithin_m);
+    const auto behind_m = ground_m(map, pose.translation() - kArm_m * axis, kWithin_m);
+    if (!ahead_m || !behind_m) return std::nullopt;
+    const double angle_rad = std::atan2(*ahead_m - *behind_m, 2.0 * kArm_m);
+    return std::abs(angle_rad) < kSteepest_rad ? std::optional(angle_rad)
+                                               : std::nullopt;  // else a kerb or a car
+  };
+  const double yaw_rad = to_roll_pitch_yaw(pose.linear()).yaw_rad;
+  const Eigen::Vector3d forward(std::cos(yaw_rad), std::sin(yaw_rad), 0.0);
+  const Eigen::Vector3d left(-std::sin(yaw_rad), std::cos(yaw_rad), 0.0);
+  const auto up_rad = slope(forward);
+  const auto left_up_rad = slope(left);
+  return make_pose(
+      pose.translation(),
+      {.roll_rad = left_up_rad.value_or(0.0), .pitch_rad = -up_rad.value_or(0.0), .yaw_rad = yaw_rad});
 }
 
 Landmarks::Landmarks(std::span<const Eigen::Vector3f> points_m) noexcept {

@@ -21,13 +21,14 @@ struct RankedGuess {
   std::size_t hits = 0;
 };
 
-/// Without end, and always the same: every other guess is on a path of straight, curve, straight; the rest is
-/// anywhere within reach, with any heading.
+/// Relative to some pose, in the plane: x, y, heading. Without end, and always the same.
 class GuessSequence {
  public:
-  /// The next one, relative to where the vehicle was, in the plane: x, y, heading. `reach_m`: the longest
-  /// way.
-  [[nodiscard]] Eigen::Vector3d next(double reach_m) noexcept;
+  /// Where a vehicle may have got to, by a way of at most `reach_m`: every other guess is on a path of
+  /// straight, curve, straight; the rest is anywhere within reach, with any heading.
+  [[nodiscard]] Eigen::Vector3d next_on_way(double reach_m) noexcept;
+  /// Within a circle, with a heading within `heading_rad` of 0.
+  [[nodiscard]] Eigen::Vector3d next_around(double within_m, double heading_rad) noexcept;
 
  private:
   [[nodiscard]] std::array<double, 3> next_fractions() noexcept;
@@ -42,6 +43,12 @@ class GuessSequence {
 /// The height of the voxel above or below a place that is nearest to it, within `within_m`.
 [[nodiscard]] std::optional<double> ground_m(const VoxelMap& map, const Eigen::Vector3d& place_m,
                                              double within_m) noexcept;
+/// The height of the lowest voxel of the blocks within `within_m` of a place, horizontally. Looks at all of
+/// them.
+[[nodiscard]] std::optional<double> lowest_m(const VoxelMap& map, const Eigen::Vector2d& place_m,
+                                             double within_m) noexcept;
+/// The pose with the roll and pitch that the ground around it has; as it is where there is none.
+[[nodiscard]] Pose on_slope(const VoxelMap& map, const Pose& pose) noexcept;
 
 /// Of the points that tell one place from another, those above the ground, a few.
 class Landmarks {

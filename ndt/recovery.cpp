@@ -7,7 +7,7 @@
 namespace landfix::ndt {
 namespace {
 
-constexpr double kShareOfNewest = 0.1;  // of the usual likelihood
+constexpr double kShareOfNewest = 0.1;  // of what is usually explained
 constexpr std::size_t kGuessesBetweenLooksAtTheClock = 64;
 /// A second sweep is looked for within this, as the velocity of the first is a guess; a third by its motion.
 constexpr double kFirstStep_m = 3.0;
@@ -30,6 +30,10 @@ constexpr double kElsewhere_m = 1.0;
 /// Of the road where the vehicle may be, to where it was.
 constexpr double kGroundWithin_m = 2.0;
 constexpr double kSteepest = 0.1;
+/// Of what tells the height, to the map's; one level of a road is farther from the next.
+constexpr double kAltitudeWithin_m = 3.0;
+/// Of what tells the heading.
+constexpr double kHeadingWithin_rad = 0.1;
 
 [[nodiscard]] double seconds_between(std::int64_t from_ns, std::int64_t to_ns) noexcept {
   return static_cast<double>(to_ns - from_ns) * 1e-9;
@@ -37,6 +41,15 @@ constexpr double kSteepest = 0.1;
 
 [[nodiscard]] double likelihood_of(const MatchResult& match) noexcept {
   return match.nearest_voxel_likelihood / match.best_likelihood;
+}
+
+[[nodiscard]] double matched_share_of(const MatchResult& match) noexcept {
+  return static_cast<double>(match.points_matched) / static_cast<double>(match.points);
+}
+
+/// How much of the scan the map explains, and how well: at a wrong place it is both.
+[[nodiscard]] double explained_by(const MatchResult& match) noexcept {
+  return likelihood_of(match) * matched_share_of(match);
 }
 
 [[nodiscard]] double distance_m(const Pose& a, const Pose& b) noexcept {
@@ -50,10 +63,10 @@ constexpr double kSteepest = 0.1;
 }  // namespace
 
 void Recovery::remember(const StampedPose& at, const Velocity& velocity, const MatchResult& match) noexcept {
-  const double likelihood = likelihood_of(match);
-  usual_likelihood_ = usual_likelihood_ == 0.0
-                          ? likelihood
-                          : usual_likelihood_ + kShareOfNewest * (likelihood - usual_likelihood_);
+  const double explained = explained_by(match);
+  usual_explained_ =
+      has_been_seen_ ? usual_explained_ + kShareOfNewest * (explained - usual_explained_) : explained;
+  has_been_seen_ = true;
   last_seen_ = at.pose;
   last_velocity_ = velocity_ = velocity;
   last_stamp_utc_ns_ = at.stamp_utc_ns;
@@ -62,9 +75,11 @@ void Recovery::remember(const StampedPose& at, const Velocity& velocity, const M
 }
 
 Sighting Recovery::look(Matcher& matcher, const VoxelMap& map, std::span<const Eigen::Vector3f> points_m,
-                        const StampedPose& prediction, const Deadline& deadline) noexcept {
+                        const StampedPose& prediction, const std::optional<PoseGuess>& guess,
+                        const Deadline& deadline) noexcept {
   const std::int64_t stamp_utc_ns = prediction.stamp_utc_ns;
   pass_time(stamp_utc_ns);
+  undistorted_with_ = velocity_;
   Sighting sighting;
   sighting.before = track_.at;
   const double step_s = seconds_between(track_.at.stamp_utc_ns, stamp_utc_ns);
@@ -79,24 +94,35 @@ Sighting Recovery::look(Matcher& matcher, const VoxelMap& map, std::span<const E
   }
 
   std::optional<MatchResult> best;
-  const auto consider = [&](const Pose& guess) {
+  const auto consider = [&](const Pose& from) {
     if (deadline.has_passed()) return;
-    const MatchResult match = matcher.match(map, points_m, guess, std::nullopt, deadline);
-    if (is_good(match) && (!best || likelihood_of(match) > likelihood_of(*best))) best = match;
+    const MatchResult match = matcher.match(map, points_m, from, std::nullopt, deadline);
+    if (is_good(match) && (!best || explained_by(match) > explained_by(*best))) best = match;
   };
-  consider(prediction.pose);
-  // As if it had gone on, by the sweeps that came, and by the clock, which may have been set.
-  consider(last_seen_ * pose_exp(counted_s_ * last_velocity_));
-  if (passed_s_ < kLongestWay_s) consider(last_seen_ * pose_exp(passed_s_ * last_velocity_));
-  const Ranked ranked = search(map, points_m, deadline);
-  for (const RankedGuess& guess : std::span(ranked.best).first(ranked.count)) consider(guess.pose);
+  const Landmarks landmarks(points_m);
+  Ranked ranked;
+  if (has_been_seen_) {
+    consider(prediction.pose);
+    // As if it had gone on, by the sweeps that came, and by the clock, which may have been set.
+    consider(last_seen_ * pose_exp(counted_s_ * last_velocity_));
+    if (passed_s_ < kLongestWay_s) consider(last_seen_ * pose_exp(passed_s_ * last_velocity_));
+    search_on_way(map, landmarks, guess ? settings_.guesses / 2 : settings_.guesses, deadline, ranked);
+  }
+  if (guess) {
+    search_around(*guess, map, landmarks, has_been_seen_ ? settings_.guesses / 2 : settings_.guesses,
+                  deadline, ranked);
+  }
+  for (const RankedGuess& each : std::span(ranked.best).first(ranked.count)) consider(each.pose);
   if (!best) return sighting;
 
-  const bool is_better = track_.sweeps == 0 || (likelihood_of(*best) > track_.likelihood + kClearlyBetter &&
+  const bool is_better = track_.sweeps == 0 || (explained_by(*best) > track_.explained + kClearlyBetter &&
                                                 distance_m(best->pose, track_.at.pose) > kElsewhere_m);
   if (is_better) {
     drop_track();
-    track_ = {.at = {stamp_utc_ns, best->pose}, .likelihood = likelihood_of(*best), .sweeps = 1};
+    track_ = {.at = {stamp_utc_ns, best->pose},
+              .explained = explained_by(*best),
+              .sweeps = 1,
+              .undistorted_with = undistorted_with_};
     sighting.match = *best;
   }
   return sighting;
@@ -115,10 +141,13 @@ void Recovery::drop_track() noexcept {
   velocity_ = last_velocity_;
 }
 
+double Recovery::least_explained() const noexcept {
+  return has_been_seen_ ? settings_.usual_share * usual_explained_ : settings_.least_explained;
+}
+
 bool Recovery::is_good(const MatchResult& match) const noexcept {
-  const double matched_share = static_cast<double>(match.points_matched) / static_cast<double>(match.points);
   return match.converged && likelihood_of(match) >= settings_.good_likelihood &&
-         matched_share >= settings_.good_matched_share;
+         matched_share_of(match) >= settings_.good_matched_share;
 }
 
 /// Whether what was seen is seen again, where it should be by now.
@@ -128,40 +157,67 @@ bool Recovery::follow(const MatchResult& match, const StampedPose& expected) noe
   const double off_rad = angle_between(match.pose, expected.pose);
   if (!is_good(match) || off_m > (is_first_step ? kFirstStep_m : kStep_m) || off_rad > kStep_rad)
     return false;
-  const StampedPose at{expected.stamp_utc_ns, match.pose};
+  StampedPose at{expected.stamp_utc_ns, match.pose};
   velocity_ = steady_part(velocity_between(track_.at, at));
+  if (is_first_step) undo_wrong_distortion(at);
   const bool agrees = !is_first_step && off_m < kAgreement_m && off_rad < kAgreement_rad &&
                       match.weak.count == 0 && is_drivable(velocity_) &&
-                      likelihood_of(match) >= settings_.usual_share * usual_likelihood_;
+                      explained_by(match) >= least_explained();
   track_ = {.at = at,
-            .likelihood = likelihood_of(match),
+            .explained = explained_by(match),
             .sweeps = track_.sweeps + 1,
             .agreeing = agrees ? track_.agreeing + 1 : 0};
   return true;
 }
 
-Recovery::Ranked Recovery::search(const VoxelMap& map, std::span<const Eigen::Vector3f> points_m,
-                                  const Deadline& deadline) noexcept {
-  Ranked ranked;
-  const Landmarks landmarks(points_m);
+/// A sweep that was undistorted with a velocity that is wrong seems to be where it was half a turn before its
+/// end, by what the velocity is wrong. That of the first two is no more than a guess.
+void Recovery::undo_wrong_distortion(StampedPose& second) noexcept {
+  const double half_s = 0.5 * seconds_between(track_.at.stamp_utc_ns, second.stamp_utc_ns);
+  velocity_ -= 0.5 * (undistorted_with_ - track_.undistorted_with);
+  second.pose = second.pose * pose_exp(half_s * (velocity_ - undistorted_with_));
+}
+
+void Recovery::search_on_way(const VoxelMap& map, const Landmarks& landmarks, std::size_t guesses,
+                             const Deadline& deadline, Ranked& ranked) noexcept {
   const double farthest_m = reach_m(last_velocity_[0], passed_s_);
-  const Eigen::Vector3d origin_m = last_seen_.translation();
-  const double yaw_rad = to_roll_pitch_yaw(last_seen_.linear()).yaw_rad;
+  search(map, landmarks, last_seen_, guesses, deadline, ranked,
+         [&] { return sequence_.next_on_way(farthest_m); });
+}
+
+void Recovery::search_around(const PoseGuess& guess, const VoxelMap& map, const Landmarks& landmarks,
+                             std::size_t guesses, const Deadline& deadline, Ranked& ranked) noexcept {
+  const double heading_rad = guess.yaw_rad ? kHeadingWithin_rad : std::numbers::pi;
+  Eigen::Vector3d place_m;
+  place_m << guess.position_m, guess.height_m.value_or(0.0);
+  std::optional<double> height_m;
+  if (guess.height_m) height_m = ground_m(map, place_m, kAltitudeWithin_m);
+  if (!height_m) height_m = lowest_m(map, guess.position_m, guess.within_m);
+  if (!height_m) return;  // beyond the map
+  place_m.z() = *height_m;
+  search(map, landmarks, make_pose(place_m, {.yaw_rad = guess.yaw_rad.value_or(0.0)}), guesses, deadline,
+         ranked, [&] { return sequence_.next_around(guess.within_m, heading_rad); });
+}
+
+template <class NextWay>
+void Recovery::search(const VoxelMap& map, const Landmarks& landmarks, const Pose& from, std::size_t guesses,
+                      const Deadline& deadline, Ranked& ranked, NextWay next_way) noexcept {
+  const Eigen::Vector3d origin_m = from.translation();
+  const double yaw_rad = to_roll_pitch_yaw(from.linear()).yaw_rad;
   const Eigen::Rotation2Dd to_map(yaw_rad);
   const double above_ground_m =
       origin_m.z() - ground_m(map, origin_m, kGroundWithin_m).value_or(origin_m.z());
-  for (std::size_t i = 0; i < settings_.guesses; ++i) {
+  for (std::size_t i = 0; i < guesses; ++i) {
     if (i % kGuessesBetweenLooksAtTheClock == 0 && deadline.has_passed()) break;
-    const Eigen::Vector3d way = sequence_.next(farthest_m);
+    const Eigen::Vector3d way = next_way();
     Eigen::Vector3d place_m = origin_m;
     place_m.head<2>() += to_map * way.head<2>();
     const auto height_m = ground_m(map, place_m, kGroundWithin_m + kSteepest * way.head<2>().norm());
     if (!height_m) continue;  // no road there
     place_m.z() = *height_m + above_ground_m;
-    const Pose pose = make_pose(place_m, {.yaw_rad = yaw_rad + way.z()});
+    const Pose pose = on_slope(map, make_pose(place_m, {.yaw_rad = yaw_rad + way.z()}));
     ranked.add({.pose = pose, .hits = landmarks.hits(map, pose)});
   }
-  return ranked;
 }
 
 /// Of neighbours the best alone: they would lead to the same place.

@@ -1,10 +1,12 @@
-// Finding a vehicle again that is LOST, without help: where it may have got to since it was last seen is
-// searched, a bounded part a sweep, and what is found must agree with itself for some sweeps to be believed.
+// Finding a vehicle that is LOST, or has not been found yet: where it may have got to since it was last seen,
+// and where it is said to be, is searched, a bounded part a sweep, and what is found must agree with itself
+// for some sweeps to be believed.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include <Eigen/Core>
@@ -13,6 +15,7 @@
 #include "ndt/matcher.hpp"
 #include "ndt/motion.hpp"
 #include "ndt/pose.hpp"
+#include "ndt/pose_guess.hpp"
 #include "ndt/reach.hpp"
 #include "ndt/voxel_map.hpp"
 
@@ -22,9 +25,10 @@ struct RecoverySettings {
   std::size_t guesses = 2000;  ///< looked at a sweep, by which cells are occupied; about 2 us each
   double good_likelihood = 0.55;
   double good_matched_share = 0.5;
-  /// Of the likelihood that matches had before: what a wrong place seldom has.
+  /// To be believed, of what matches explained before: a wrong place has half of it.
   double usual_share = 0.85;
-  int agreeing_sweeps = 3;  ///< in a row, after the first two
+  double least_explained = 0.45;  ///< where there was none before
+  int agreeing_sweeps = 3;        ///< in a row, after the first two
 };
 
 /// What a sweep shows of a vehicle that is LOST.
@@ -43,10 +47,11 @@ class Recovery {
   void remember(const StampedPose& at, const Velocity& velocity, const MatchResult& match) noexcept;
 
   /// One sweep while LOST. `prediction`: where the vehicle is, if it stands or another sensor has measured
-  /// its motion. Neither the search nor a match goes on after the deadline.
+  /// its motion; `guess`: where it is said to be. Before it has ever been seen the guess alone counts.
+  /// Neither the search nor a match goes on after the deadline.
   [[nodiscard]] Sighting look(Matcher& matcher, const VoxelMap& map,
                               std::span<const Eigen::Vector3f> points_m, const StampedPose& prediction,
-                              const Deadline& deadline) noexcept;
+                              const std::optional<PoseGuess>& guess, const Deadline& deadline) noexcept;
 
   /// The best guess at the velocity, to undo the next sweep's distortion with.
   [[nodiscard]] const Velocity& velocity() const noexcept { return velocity_; }
@@ -55,9 +60,10 @@ class Recovery {
   /// What has been seen and may be it.
   struct Track {
     StampedPose at;
-    double likelihood = 0.0;
+    double explained = 0.0;
     int sweeps = 0;  ///< 0: there is none
     int agreeing = 0;
+    Velocity undistorted_with = Velocity::Zero();  ///< its first sweep
   };
   static constexpr std::size_t kMatches = 4;  ///< of the best guesses
   struct Ranked {
@@ -68,16 +74,26 @@ class Recovery {
 
   void pass_time(std::int64_t stamp_utc_ns) noexcept;
   void drop_track() noexcept;
+  [[nodiscard]] double least_explained() const noexcept;
   [[nodiscard]] bool is_good(const MatchResult& match) const noexcept;
+  void undo_wrong_distortion(StampedPose& second) noexcept;
   [[nodiscard]] bool follow(const MatchResult& match, const StampedPose& expected) noexcept;
-  [[nodiscard]] Ranked search(const VoxelMap& map, std::span<const Eigen::Vector3f> points_m,
-                              const Deadline& deadline) noexcept;
+  /// What lies around a pose on the ground is ranked; `next_way` leads from it to the next guess.
+  template <class NextWay>
+  void search(const VoxelMap& map, const Landmarks& landmarks, const Pose& from, std::size_t guesses,
+              const Deadline& deadline, Ranked& ranked, NextWay next_way) noexcept;
+  void search_on_way(const VoxelMap& map, const Landmarks& landmarks, std::size_t guesses,
+                     const Deadline& deadline, Ranked& ranked) noexcept;
+  void search_around(const PoseGuess& guess, const VoxelMap& map, const Landmarks& landmarks,
+                     std::size_t guesses, const Deadline& deadline, Ranked& ranked) noexcept;
 
   RecoverySettings settings_;
+  bool has_been_seen_ = false;
   Pose last_seen_ = Pose::Identity();
   Velocity last_velocity_ = Velocity::Zero();
-  double usual_likelihood_ = 0.0;  ///< of the best there can be; 0: unknown
+  double usual_explained_ = 0.0;  ///< of all points, as well as can be
   Velocity velocity_ = Velocity::Zero();
+  Velocity undistorted_with_ = Velocity::Zero();  ///< the newest sweep
   std::int64_t last_stamp_utc_ns_ = 0;
   double passed_s_ = 0.0;   ///< since it was last seen
   double counted_s_ = 0.0;  ///< of these, with sweeps that came

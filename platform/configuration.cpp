@@ -12,6 +12,7 @@
 #include "drivers/sensor_model.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/candump_log.hpp"
+#include "platform/gnss_configuration.hpp"
 #include "platform/ipv4.hpp"
 #include "platform/odometry_configuration.hpp"
 #include "platform/pose_frame_table.hpp"
@@ -22,8 +23,8 @@ namespace {
 
 constexpr std::size_t kMaxUnixPathLength = 107;
 
-constexpr std::array kSections{"sensor",  "vehicle", "map",      "initial_pose", "filter",
-                               "matcher", "can",     "realtime", "metrics",      "odometry"};
+constexpr std::array kSections{"sensor", "vehicle",  "map",     "initial_pose", "filter", "matcher",
+                               "can",    "realtime", "metrics", "odometry",     "gnss"};
 
 bool is_ipv4(std::string_view text) { return parse_ipv4(text).has_value(); }
 
@@ -163,6 +164,7 @@ Configuration parse_configuration(std::string_view text, const std::filesystem::
   read_realtime({path, root, "realtime"}, configuration.realtime);
   read_metrics({path, root, "metrics"}, configuration.metrics);
   read_odometry({path, root, "odometry"}, configuration.odometry);
+  read_gnss({path, root, "gnss"}, configuration.gnss);
   return configuration;
 }
 

@@ -10,6 +10,7 @@
 
 #include "ndt/pose.hpp"
 #include "ndt/scan_filter.hpp"
+#include "platform/gnss.hpp"
 #include "platform/odometry.hpp"
 #include "platform/realtime_settings.hpp"
 
@@ -39,7 +40,7 @@ struct MapSettings {
 };
 
 struct InitialPoseSettings {
-  std::optional<ndt::Pose> pose;  ///< map <- vehicle
+  std::optional<ndt::Pose> pose;  ///< map <- vehicle; nothing: must come from elsewhere
   std::filesystem::path resume;   ///< where landfixd keeps the last good pose; empty: nowhere
 };
 
@@ -71,6 +72,7 @@ struct Configuration {
   RealtimeSettings realtime{};
   MetricsSettings metrics{};
   OdometrySettings odometry{};
+  GnssSettings gnss{};
 };
 
 /// Paths within the file are relative to its folder. Throws std::runtime_error: path:line:column, what is

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "platform/odometry_signal.hpp"
+#include "platform/vehicle_signal.hpp"
 
 namespace landfix::platform {
 

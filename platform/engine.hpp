@@ -45,7 +45,7 @@ class Engine {
   /// The memory that `map` views, and the rest, must outlive the engine, and the RunningEngine that it
   /// becomes. Throws std::runtime_error where memory cannot be had.
   Engine(const EngineSettings& settings, const drivers::AnyDecoder& decoder, const ndt::VoxelMap& map,
-         MapWindow* window, PacketReceiver& receiver, FrameSink* bus, FrameSource* odometry = nullptr);
+         MapWindow* window, PacketReceiver& receiver, FrameSink* bus, FrameSource* vehicle_bus = nullptr);
   ~Engine();
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;

@@ -55,6 +55,7 @@ struct SolveStatus {
   PipelineCounters pipeline;
   drivers::StreamCounters stream;
   OdometryStatus odometry;
+  GnssCounters gnss;
 };
 
 struct EngineLinks {

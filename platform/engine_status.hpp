@@ -10,6 +10,7 @@
 #include "drivers/sweep.hpp"
 #include "ndt/localizer.hpp"
 #include "platform/bus_status.hpp"
+#include "platform/gnss.hpp"
 #include "platform/latency_histogram.hpp"
 #include "platform/odometry.hpp"
 #include "platform/stage.hpp"
@@ -77,6 +78,7 @@ struct EngineStatus {
   std::uint64_t sensor_restarts = 0;
 
   OdometryStatus odometry;
+  GnssCounters gnss;
 
   BusStatus bus;
   std::uint64_t poses_saturated = 0;

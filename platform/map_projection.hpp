@@ -1,4 +1,4 @@
-// From a map's x, y, z to latitude, longitude and altitude, as the map was projected.
+// Between a map's x, y, z and latitude, longitude and altitude, as the map was projected.
 #pragma once
 
 #include <variant>
@@ -33,5 +33,13 @@ using MapProjection = std::variant<TransverseMercatorMap, LocalCartesianMap>;
 
 [[nodiscard]] GeodeticPosition to_geodetic(const MapProjection& projection,
                                            const Eigen::Vector3d& position_m) noexcept;
+
+/// A place of the earth in the map.
+struct MapPlace {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  double north_rad = 0.0;  ///< heading there of true north, counter-clockwise from x
+};
+
+[[nodiscard]] MapPlace to_map(const MapProjection& projection, const GeodeticPosition& position) noexcept;
 
 }  // namespace landfix::platform

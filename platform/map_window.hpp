@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -33,16 +34,19 @@ struct MapWindowCounters {
 /// Allocates in its constructor only.
 class MapWindow {
  public:
-  /// Loads the window around `start_m`. Throws std::runtime_error that says what is wrong with the file, or
-  /// that the memory cannot be had.
+  /// Loads the window around `start_m`, or the map's middle. Throws std::runtime_error that says what is
+  /// wrong with the file, or that the memory cannot be had.
   MapWindow(const std::filesystem::path& path, const MapWindowSettings& settings,
-            const Eigen::Vector3d& start_m);
+            const std::optional<Eigen::Vector3d>& start_m);
 
   /// Of the whole map; its counts are not the window's.
   [[nodiscard]] double resolution_m() const noexcept { return assembler_.map_header().resolution_m; }
   [[nodiscard]] std::uint32_t map_checksum() const noexcept {
     return assembler_.map_header().header_checksum;
   }
+
+  /// Around what the first window was loaded.
+  [[nodiscard]] const Eigen::Vector3d& start_m() const noexcept { return start_m_; }
 
   /// For the solver: the newest window, valid until the next call; `place_m` is where the vehicle is. Takes
   /// no lock and never waits.
@@ -58,6 +62,7 @@ class MapWindow {
   [[nodiscard]] Eigen::Vector3d middle_of(std::uint64_t block) const noexcept;
 
   ndt::WindowAssembler assembler_;
+  Eigen::Vector3d start_m_;
   double reload_after_m_;
   std::array<PageMemory, 2> images_;
   HandOver hand_over_;

@@ -74,13 +74,14 @@ class RandomAccessFile {
 }  // namespace
 
 MapWindow::MapWindow(const std::filesystem::path& path, const MapWindowSettings& settings,
-                     const Eigen::Vector3d& start_m)
+                     const std::optional<Eigen::Vector3d>& start_m)
     : assembler_(assembler_of(path, settings.reach_m)),
+      start_m_(start_m ? *start_m : assembler_.map_middle_m()),
       reload_after_m_(kReloadAfterTiles * ndt::kTileCells * assembler_.map_header().resolution_m),
       images_{PageMemory(image_bytes(settings.memory_bytes)),
               PageMemory(image_bytes(settings.memory_bytes))} {
-  load_around(start_m, *hand_over_.writable());
-  (void)newest(start_m);
+  load_around(start_m_, *hand_over_.writable());
+  (void)newest(start_m_);
 }
 
 bool MapWindow::load() {

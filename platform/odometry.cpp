@@ -21,8 +21,8 @@ constexpr ChannelLimits kSpeedLimits{
 constexpr ChannelLimits kYawRateLimits{
     .rate = 5.0, .slack = 0.05, .tolerance = 0.03, .tolerance_share = 0.1, .timeout_ns = 200'000'000};
 
-[[nodiscard]] bool is_wheel(OdometryRole role) noexcept {
-  return role >= OdometryRole::wheel_fl && role <= OdometryRole::wheel_rr;
+[[nodiscard]] bool is_wheel(VehicleRole role) noexcept {
+  return role >= VehicleRole::wheel_fl && role <= VehicleRole::wheel_rr;
 }
 
 /// With the longest time-out of the signals that `counts`.
@@ -30,7 +30,7 @@ template <class Counts>
 [[nodiscard]] ChannelLimits limits_for(const OdometrySettings& settings, ChannelLimits limits,
                                        Counts counts) {
   std::int64_t longest_ns = 0;
-  for (const OdometrySignal& signal : settings.all()) {
+  for (const VehicleSignal& signal : settings.all()) {
     if (counts(signal.role)) longest_ns = std::max(longest_ns, signal.timeout_ns);
   }
   if (longest_ns != 0) limits.timeout_ns = longest_ns;
@@ -39,28 +39,21 @@ template <class Counts>
 
 }  // namespace
 
-bool OdometrySettings::has(OdometryRole role) const noexcept {
-  const auto signals_of = all();
-  return std::any_of(signals_of.begin(), signals_of.end(),
-                     [role](const OdometrySignal& signal) { return signal.role == role; });
-}
-
 Odometry::Odometry(const OdometrySettings& settings) noexcept
     : settings_(settings),
       speed_(limits_for(settings, kSpeedLimits,
-                        [](OdometryRole role) { return role == OdometryRole::speed || is_wheel(role); })),
-      yaw_rate_(
-          limits_for(settings, kYawRateLimits,
-                     [](OdometryRole role) { return role == OdometryRole::yaw_rate || is_wheel(role); })),
-      has_speed_(settings.has(OdometryRole::speed)),
-      has_yaw_rate_(settings.has(OdometryRole::yaw_rate)),
-      has_reverse_(settings.has(OdometryRole::reverse)) {}
+                        [](VehicleRole role) { return role == VehicleRole::speed || is_wheel(role); })),
+      yaw_rate_(limits_for(settings, kYawRateLimits,
+                           [](VehicleRole role) { return role == VehicleRole::yaw_rate || is_wheel(role); })),
+      has_speed_(settings.has(VehicleRole::speed)),
+      has_yaw_rate_(settings.has(VehicleRole::yaw_rate)),
+      has_reverse_(settings.has(VehicleRole::reverse)) {}
 
 void Odometry::add(const CanFrame& frame, std::int64_t stamp_utc_ns) noexcept {
   bool any = false;
   bool any_wheel = false;
   bool any_speed = false;
-  for (const OdometrySignal& signal : settings_.all()) {
+  for (const VehicleSignal& signal : settings_.all()) {
     if (!signal.is_in(frame)) continue;
     any = true;
     const auto value = value_of(signal, frame);
@@ -68,28 +61,24 @@ void Odometry::add(const CanFrame& frame, std::int64_t stamp_utc_ns) noexcept {
       ++counters_.invalid;
       continue;
     }
-    latest_[static_cast<std::size_t>(signal.role)] = {*value, stamp_utc_ns, signal.timeout_ns, true};
+    latest_[static_cast<std::size_t>(signal.role)].set(*value, stamp_utc_ns, signal.timeout_ns);
     any_wheel |= is_wheel(signal.role);
-    any_speed |= signal.role == OdometryRole::speed;
-    if (signal.role == OdometryRole::yaw_rate) count(yaw_rate_.add(stamp_utc_ns, *value));
+    any_speed |= signal.role == VehicleRole::speed;
+    if (signal.role == VehicleRole::yaw_rate) count(yaw_rate_.add(stamp_utc_ns, *value));
   }
   counters_.frames += any ? 1 : 0;
   // After all of the frame is known: the reverse gear may stand beside the speed.
-  if (any_speed) add_speed(*latest(OdometryRole::speed, stamp_utc_ns), stamp_utc_ns);
+  if (any_speed) add_speed(*latest(VehicleRole::speed, stamp_utc_ns), stamp_utc_ns);
   if (any_wheel) add_wheels(stamp_utc_ns);
 }
 
-std::optional<double> Odometry::latest(OdometryRole role, std::int64_t stamp_utc_ns) const noexcept {
-  const Latest& value = latest_[static_cast<std::size_t>(role)];
-  constexpr std::int64_t kClockWasSet_ns = 500'000'000;  // back, since it was told
-  const std::int64_t age_ns = stamp_utc_ns - value.stamp_utc_ns;
-  if (!value.any || age_ns > value.timeout_ns || age_ns < -kClockWasSet_ns) return std::nullopt;
-  return value.value;
+std::optional<double> Odometry::latest(VehicleRole role, std::int64_t stamp_utc_ns) const noexcept {
+  return latest_[static_cast<std::size_t>(role)].at(stamp_utc_ns);
 }
 
 std::optional<double> Odometry::direction(std::int64_t stamp_utc_ns) const noexcept {
   if (!has_reverse_) return 1.0;
-  const auto reverse = latest(OdometryRole::reverse, stamp_utc_ns);
+  const auto reverse = latest(VehicleRole::reverse, stamp_utc_ns);
   if (!reverse) return std::nullopt;
   return *reverse != 0.0 ? -1.0 : 1.0;
 }
@@ -104,14 +93,14 @@ void Odometry::add_speed(double speed_mps, std::int64_t stamp_utc_ns) noexcept {
 }
 
 void Odometry::add_wheels(std::int64_t stamp_utc_ns) noexcept {
-  const auto pair = [&](OdometryRole left, OdometryRole right) -> std::optional<std::array<double, 2>> {
+  const auto pair = [&](VehicleRole left, VehicleRole right) -> std::optional<std::array<double, 2>> {
     const auto left_mps = latest(left, stamp_utc_ns);
     const auto right_mps = latest(right, stamp_utc_ns);
     if (!left_mps || !right_mps) return std::nullopt;
     return std::array{*left_mps, *right_mps};
   };
-  const auto rear_mps = pair(OdometryRole::wheel_rl, OdometryRole::wheel_rr);
-  const auto front_mps = pair(OdometryRole::wheel_fl, OdometryRole::wheel_fr);
+  const auto rear_mps = pair(VehicleRole::wheel_rl, VehicleRole::wheel_rr);
+  const auto front_mps = pair(VehicleRole::wheel_fl, VehicleRole::wheel_fr);
   // The pose is that of the rear axle; the front wheels go a little farther in a curve.
   const auto& wheels_mps = rear_mps ? rear_mps : front_mps;
   if (wheels_mps && !has_speed_) add_speed(0.5 * ((*wheels_mps)[0] + (*wheels_mps)[1]), stamp_utc_ns);

@@ -6,28 +6,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 
 #include "ndt/measured_motion.hpp"
 #include "platform/can_frame.hpp"
 #include "platform/odometry_channel.hpp"
-#include "platform/odometry_signal.hpp"
+#include "platform/vehicle_signal.hpp"
 
 namespace landfix::platform {
 
-struct OdometrySettings {
-  static constexpr std::size_t kMaxSignals = 16;
-
-  std::array<OdometrySignal, kMaxSignals> signals{};
-  std::size_t count = 0;
+struct OdometrySettings : VehicleSignals {
   double track_m = 0.0;  ///< between the rear wheels; above 0 they tell the yaw rate, if no signal does
-
-  [[nodiscard]] std::span<const OdometrySignal> all() const& noexcept {
-    return std::span(signals).first(count);
-  }
-  /// The signals would be gone.
-  std::span<const OdometrySignal> all() const&& = delete;
-  [[nodiscard]] bool has(OdometryRole role) const noexcept;
 };
 
 struct OdometryCounters {
@@ -68,21 +56,14 @@ class Odometry {
   [[nodiscard]] const OdometryChannel& yaw_rate() const noexcept { return yaw_rate_; }
 
  private:
-  struct Latest {
-    double value = 0.0;
-    std::int64_t stamp_utc_ns = 0;
-    std::int64_t timeout_ns = 0;
-    bool any = false;
-  };
-
-  [[nodiscard]] std::optional<double> latest(OdometryRole role, std::int64_t stamp_utc_ns) const noexcept;
+  [[nodiscard]] std::optional<double> latest(VehicleRole role, std::int64_t stamp_utc_ns) const noexcept;
   [[nodiscard]] std::optional<double> direction(std::int64_t stamp_utc_ns) const noexcept;
   void add_wheels(std::int64_t stamp_utc_ns) noexcept;
   void add_speed(double speed_mps, std::int64_t stamp_utc_ns) noexcept;
   void count(bool taken) noexcept { ++(taken ? counters_.samples : counters_.jumps); }
 
   OdometrySettings settings_;
-  std::array<Latest, kOdometryRoleNames.size()> latest_{};
+  std::array<LatestValue, kVehicleRoleNames.size()> latest_{};
   OdometryChannel speed_;
   OdometryChannel yaw_rate_;
   bool has_speed_;

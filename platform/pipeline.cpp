@@ -50,6 +50,7 @@ std::optional<SweepResult> Pipeline::predict_missing(std::int64_t now_utc_ns) no
                        .missing = true,
                        .time_source = time_source_};
     if (result.fix.state == ndt::State::init) continue;
+    told_utc_ns_ = missing->stamp_utc_ns;
     publish(result);
     return result;
   }
@@ -111,6 +112,7 @@ SweepResult Pipeline::localize(const drivers::Sweep& sweep, const SweepOrders& o
   time_source_ = sweep.time_source();
   SweepResult result{.fix = fix,
                      .seen_utc_ns = seen_utc_ns_,
+                     .late = is_late(sweep.end_utc_ns()),
                      .skipped = orders.skip_match,
                      .points_filtered = points_m.size(),
                      .complete = sweep.complete(),
@@ -127,6 +129,7 @@ ndt::Fix Pipeline::fix_of(std::span<const Eigen::Vector3f> points_m, std::int64_
                           const SweepOrders& orders) noexcept {
   if (orders.skip_match) return localizer_.predict_missing(stamp_utc_ns, motion_to(stamp_utc_ns));
   if (window_ != nullptr) localizer_.use_map(window_->newest(localizer_.pose().translation()));
+  if (localizer_.is_searching()) localizer_.expect_near(gnss_.guess(schedule_.received(stamp_utc_ns)));
   return localizer_.localize(points_m, stamp_utc_ns, motion_to(stamp_utc_ns), orders.deadline);
 }
 
@@ -157,8 +160,16 @@ void Pipeline::check_odometry(const ndt::Fix& fix) noexcept {
                     ndt::velocity_between(*before, fix.at));
 }
 
+/// What a gap cut short ends before the sweeps that were predicted for the gap.
+bool Pipeline::is_late(std::int64_t stamp_utc_ns) noexcept {
+  constexpr std::int64_t kSetBack_ns = 1'000'000'000;  // more is a clock that was set
+  const bool late = stamp_utc_ns < told_utc_ns_ && told_utc_ns_ - stamp_utc_ns < kSetBack_ns;
+  if (!late) told_utc_ns_ = stamp_utc_ns;
+  return late;
+}
+
 void Pipeline::publish(const SweepResult& result) noexcept {
-  publisher_.publish(report_of(result), result.fix.at.stamp_utc_ns);
+  if (!result.late) publisher_.publish(report_of(result), result.fix.at.stamp_utc_ns);
 }
 
 void Pipeline::record(Stage stage, std::int64_t duration_ns) noexcept {

@@ -19,6 +19,7 @@
 #include "ndt/scan_filter.hpp"
 #include "ndt/voxel_map.hpp"
 #include "platform/can_frame.hpp"
+#include "platform/gnss.hpp"
 #include "platform/latency_histogram.hpp"
 #include "platform/map_window.hpp"
 #include "platform/odometry.hpp"
@@ -40,9 +41,11 @@ struct PipelineSettings {
   std::size_t filter_capacity = ndt::Matcher::kMaxPoints;  ///< points after the filter
   bool deskew = true;
   ndt::LocalizerSettings localizer{};
-  ndt::Pose initial_pose = ndt::Pose::Identity();  ///< map <- vehicle
+  /// map <- vehicle; nothing: `gnss` tells where to look.
+  std::optional<ndt::Pose> initial_pose{};
   PublishSettings publish;
   OdometrySettings odometry{};
+  GnssSettings gnss{};
 };
 
 /// What a sweep that a packet completes may cost, where others wait.
@@ -87,9 +90,13 @@ class Pipeline {
   /// sweep is missing half a period after it was due. For a second they are PREDICTED, then NO_DATA twice a
   /// second; what is left of a sweep that was begun is then dropped. Nothing before the first sweep.
   [[nodiscard]] std::optional<SweepResult> predict_missing(std::int64_t now_utc_ns) noexcept;
-  /// Takes a frame of the vehicle's bus, by its time of receipt; to be told before a packet that came later.
-  void add_odometry(FrameSource& source, std::int64_t now_utc_ns) noexcept {
-    for (StampedFrame frame; source.next(frame, now_utc_ns);) odometry_.add(frame.frame, frame.stamp_utc_ns);
+  /// Takes what the vehicle's bus has said, by its times of receipt; to be told before a packet that came
+  /// later.
+  void listen(FrameSource& bus, std::int64_t now_utc_ns) noexcept {
+    for (StampedFrame frame; bus.next(frame, now_utc_ns);) {
+      odometry_.add(frame.frame, frame.stamp_utc_ns);
+      gnss_.add(frame.frame, frame.stamp_utc_ns);
+    }
   }
   /// At the end of the packets: what came of the last sweep, if any is begun.
   [[nodiscard]] std::optional<SweepResult> finish() noexcept;
@@ -100,6 +107,7 @@ class Pipeline {
     return decoder_.counters();
   }
   [[nodiscard]] const Odometry& odometry() const noexcept { return odometry_; }
+  [[nodiscard]] const Gnss& gnss() const noexcept { return gnss_; }
   [[nodiscard]] const LatencyHistogram& durations(Stage stage) const noexcept {
     return durations_[static_cast<std::size_t>(stage)];
   }
@@ -112,6 +120,7 @@ class Pipeline {
   void check_odometry(const ndt::Fix& fix) noexcept;
   void filter_new_points(const drivers::Sweep& sweep) noexcept;
   [[nodiscard]] std::span<const Eigen::Vector3f> finish_filter(std::int64_t end_utc_ns) noexcept;
+  [[nodiscard]] bool is_late(std::int64_t stamp_utc_ns) noexcept;
   void publish(const SweepResult& result) noexcept;
   [[nodiscard]] ndt::Fix fix_of(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns,
                                 const SweepOrders& orders) noexcept;
@@ -127,8 +136,10 @@ class Pipeline {
   ndt::Localizer localizer_;
   SweepSchedule schedule_;
   Odometry odometry_;
+  Gnss gnss_;
   std::optional<ndt::StampedPose> last_tracked_;  ///< of the last sweep, if it was TRACKING
   std::int64_t seen_utc_ns_ = 0;
+  std::int64_t told_utc_ns_ = 0;  ///< the stamp of the last result, of a sweep that came or not
   drivers::TimeSource time_source_ = drivers::TimeSource::receive;  ///< of the last sweep
   PosePublisher publisher_;
   MapWindow* window_;

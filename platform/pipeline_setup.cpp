@@ -1,4 +1,5 @@
 // Set-up of the pipeline: the one place where it allocates.
+#include "ndt/map_middle.hpp"
 #include "platform/pipeline.hpp"
 #include "platform/pose_frames.hpp"
 
@@ -14,13 +15,17 @@ Pipeline::Pipeline(const PipelineSettings& settings, const drivers::AnyDecoder& 
       localizer_(map, settings.localizer, settings.initial_pose),
       schedule_(settings.longest_period_ns, static_cast<std::int64_t>(settings.localizer.lost_after_s * 1e9)),
       odometry_(settings.odometry),
+      gnss_(settings.gnss, settings.publish.map.projection),
       publisher_(settings.publish, bus),
       window_(window) {}
 
 void Pipeline::warm_up() noexcept {
   constexpr double kReach_m = 60.0;
-  const ndt::Pose to_vehicle = settings_.initial_pose.inverse();
-  ndt::visit_voxels(localizer_.map(), [&](const ndt::Voxel& /*voxel*/, const Eigen::Vector3d& mean_m) {
+  const ndt::VoxelMap& map = localizer_.map();
+  const ndt::Pose to_vehicle =
+      settings_.initial_pose.value_or(ndt::make_pose(ndt::middle_m(map.blocks(), map.resolution_m()), {}))
+          .inverse();
+  ndt::visit_voxels(map, [&](const ndt::Voxel& /*voxel*/, const Eigen::Vector3d& mean_m) {
     const Eigen::Vector3d point_m = to_vehicle * mean_m;
     if (point_m.norm() < kReach_m) filter_.add(point_m.cast<float>(), 0);
   });

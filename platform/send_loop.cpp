@@ -46,7 +46,7 @@ void SendLoop::take(const SolvedSweep& sweep) noexcept {
     schedule_.take_fix(now);
     return;
   }
-  publisher_.publish(report_of(sweep.result), sweep.result.fix.at.stamp_utc_ns);
+  if (!sweep.result.late) publisher_.publish(report_of(sweep.result), sweep.result.fix.at.stamp_utc_ns);
   record_sweep(sweep, now);
 }
 

@@ -26,7 +26,7 @@ bool SolveLoop::solve_packet() noexcept {
   const PacketHeader header = links_.packets.header();
   kernel_receive_.record(header.taken_mono_ns - header.arrived_mono_ns);
   ring_wait_.record(monotonic_ns() - header.taken_mono_ns);
-  take_odometry(header.receive_utc_ns);
+  listen(header.receive_utc_ns);
   predict_until(header.receive_utc_ns);
   ++packets_of_sweep_;
   const auto result = pipeline_.process(links_.packets.front(), orders(header));
@@ -58,16 +58,16 @@ SweepOrders SolveLoop::orders(const PacketHeader& header) noexcept {
 }
 
 /// A log's frames come with the packets' times; a bus, which stamps its own, is asked a few times a sweep.
-void SolveLoop::take_odometry(std::int64_t now_utc_ns) noexcept {
+void SolveLoop::listen(std::int64_t now_utc_ns) noexcept {
   constexpr std::int64_t kPeriod_ns = 2'000'000;
-  if (odometry_ == nullptr) return;
+  if (vehicle_bus_ == nullptr) return;
   if (links_.mode == EngineMode::live) {
     const std::int64_t now_ns = monotonic_ns();
-    if (now_ns < odometry_due_ns_) return;
-    odometry_due_ns_ = now_ns + kPeriod_ns;
-    odometry_->maintain(now_ns);
+    if (now_ns < listen_due_ns_) return;
+    listen_due_ns_ = now_ns + kPeriod_ns;
+    vehicle_bus_->maintain(now_ns);
   }
-  pipeline_.add_odometry(*odometry_, now_utc_ns);
+  pipeline_.listen(*vehicle_bus_, now_utc_ns);
 }
 
 void SolveLoop::predict_until(std::int64_t now_utc_ns) noexcept {
@@ -82,7 +82,7 @@ void SolveLoop::wait() noexcept {
   constexpr std::int64_t kLongest_ns = 10'000'000;
   if (links_.mode == EngineMode::live) {
     const std::int64_t now_utc_ns = utc_ns();
-    take_odometry(now_utc_ns);
+    listen(now_utc_ns);
     predict_until(now_utc_ns);
     if (counters_.sweeps == 0) say_that_none_came(now_utc_ns);
   }
@@ -132,7 +132,8 @@ void SolveLoop::publish_status() noexcept {
                           .counters = counters_,
                           .pipeline = pipeline_.counters(),
                           .stream = pipeline_.stream_counters(),
-                          .odometry = pipeline_.odometry().status()};
+                          .odometry = pipeline_.odometry().status(),
+                          .gnss = pipeline_.gnss().counters()};
   links_.status.publish();
 }
 

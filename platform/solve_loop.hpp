@@ -12,10 +12,11 @@ namespace landfix::platform {
 
 class SolveLoop {
  public:
-  /// `odometry`: frames of the vehicle's bus, or null. `deadline_ns`: from a sweep's last packet to the end
-  /// of its match; 0: none.
-  SolveLoop(EngineLinks& links, Pipeline& pipeline, FrameSource* odometry, std::int64_t deadline_ns) noexcept
-      : links_(links), pipeline_(pipeline), odometry_(odometry), deadline_ns_(deadline_ns) {}
+  /// `vehicle_bus`: frames of the vehicle's bus, or null. `deadline_ns`: from a sweep's last packet to the
+  /// end of its match; 0: none.
+  SolveLoop(EngineLinks& links, Pipeline& pipeline, FrameSource* vehicle_bus,
+            std::int64_t deadline_ns) noexcept
+      : links_(links), pipeline_(pipeline), vehicle_bus_(vehicle_bus), deadline_ns_(deadline_ns) {}
 
   /// Until the packets have ended and all of them are solved, or the engine stops.
   void run() noexcept;
@@ -27,7 +28,7 @@ class SolveLoop {
  private:
   /// False if there was none.
   bool solve_packet() noexcept;
-  void take_odometry(std::int64_t now_utc_ns) noexcept;
+  void listen(std::int64_t now_utc_ns) noexcept;
   void predict_until(std::int64_t now_utc_ns) noexcept;
   void wait() noexcept;
   void say_that_none_came(std::int64_t now_utc_ns) noexcept;
@@ -40,7 +41,7 @@ class SolveLoop {
 
   EngineLinks& links_;
   Pipeline& pipeline_;
-  FrameSource* odometry_;
+  FrameSource* vehicle_bus_;
   std::int64_t deadline_ns_;
   ThreadWatch watch_;
   LatencyHistogram kernel_receive_;
@@ -49,7 +50,7 @@ class SolveLoop {
   SolvedSweep last_;
   std::size_t packets_of_sweep_ = 0;       ///< of the current one, so far
   std::size_t packets_of_last_sweep_ = 0;  ///< 0: there is none yet
-  std::int64_t odometry_due_ns_ = 0;
+  std::int64_t listen_due_ns_ = 0;
   std::int64_t silence_due_ns_ = 0;  ///< before the first sweep; 0: not begun
   std::int64_t last_stamp_utc_ns_ = 0;
   std::int64_t last_arrived_mono_ns_ = 0;

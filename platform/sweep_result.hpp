@@ -23,6 +23,7 @@ struct SweepResult {
   ndt::Fix fix;
   std::int64_t seen_utc_ns = 0;  ///< the stamp of the last sweep that came: this one's, unless it is missing
   bool missing = false;          ///< it has not come: predicted, or NO_DATA
+  bool late = false;             ///< it has come after a later one was predicted: its pose is not news
   bool skipped = false;          ///< it has come, but was not matched as newer ones were waiting: predicted
   std::size_t points_filtered = 0;  ///< that were matched
   bool complete = false;

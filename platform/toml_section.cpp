@@ -143,6 +143,19 @@ std::vector<TomlSection> TomlSection::tables(std::string_view key, std::string_v
   return tables;
 }
 
+void TomlSection::read(std::string_view key, Eigen::Vector3d& value) {
+  const toml::node* const node = find(key);
+  if (node == nullptr) return;
+  const toml::array* const array = node->as_array();
+  bool good = array != nullptr && array->size() == 3;
+  for (std::size_t i = 0; good && i < 3; ++i) {
+    const std::optional<double> number = number_of(*array->get(i));
+    good = number && std::abs(*number) <= kMaxCoordinate_m;
+    value[static_cast<Eigen::Index>(i)] = number.value_or(0.0);
+  }
+  if (!good) fail(key, *node, fmt::format("[x, y, z]: three numbers, metres up to {}", kMaxCoordinate_m));
+}
+
 void TomlSection::read(std::string_view key, ndt::Pose& value) {
   std::optional<ndt::Pose> pose;
   read(key, pose);

@@ -35,6 +35,8 @@ class TomlSection {
   void read(std::string_view key, double& value, Range<double> range);
   /// An empty file name stays empty, a relative one starts from the configuration's folder.
   void read(std::string_view key, std::filesystem::path& value);
+  /// [x, y, z], metres.
+  void read(std::string_view key, Eigen::Vector3d& value);
   /// [x, y, z, roll_deg, pitch_deg, yaw_deg], metres and degrees.
   void read(std::string_view key, ndt::Pose& value);
   void read(std::string_view key, std::optional<ndt::Pose>& value);

@@ -75,14 +75,19 @@ class Signals {
   return prepare_replay({.config = config, .initial_pose = resumed});
 }
 
-[[nodiscard]] std::vector<platform::CanId> ids_of(const platform::OdometrySettings& odometry) {
+/// What is listened to on the vehicle's bus.
+[[nodiscard]] std::vector<platform::CanId> ids_of(const platform::Configuration& configuration) {
   std::vector<platform::CanId> ids;
-  for (const platform::OdometrySignal& signal : odometry.all()) {
-    const bool is_known = std::any_of(ids.begin(), ids.end(), [&signal](const platform::CanId& id) {
-      return id.id == signal.id && id.extended == signal.extended;
-    });
-    if (!is_known) ids.push_back({signal.id, signal.extended});
-  }
+  const auto add = [&ids](const platform::VehicleSignals& signals) {
+    for (const platform::VehicleSignal& signal : signals.all()) {
+      const bool is_known = std::any_of(ids.begin(), ids.end(), [&signal](const platform::CanId& id) {
+        return id.id == signal.id && id.extended == signal.extended;
+      });
+      if (!is_known) ids.push_back({signal.id, signal.extended});
+    }
+  };
+  add(configuration.odometry);
+  add(configuration.gnss);
   return ids;
 }
 
@@ -110,12 +115,12 @@ void run_daemon(const std::filesystem::path& config) {
   platform::SocketCan bus(setup.configuration.can.interface, setup.configuration.can.fd);
   std::optional<MetricsServer> metrics;  // before the memory is locked: its stack is to be kept
   if (!setup.configuration.metrics.address.empty()) metrics.emplace(setup.configuration.metrics.address);
-  const std::vector<platform::CanId> odometry_ids = ids_of(setup.configuration.odometry);
-  std::optional<platform::CanReceiver> odometry;
-  if (!odometry_ids.empty()) odometry.emplace(setup.configuration.can.interface, odometry_ids);
+  const std::vector<platform::CanId> vehicle_ids = ids_of(setup.configuration);
+  std::optional<platform::CanReceiver> vehicle_bus;
+  if (!vehicle_ids.empty()) vehicle_bus.emplace(setup.configuration.can.interface, vehicle_ids);
   platform::RunningEngine engine(platform::Engine(engine_settings(setup, platform::EngineMode::live),
                                                   setup.decoder, setup.map(), setup.window.get(), receiver,
-                                                  &bus, odometry ? &*odometry : nullptr));
+                                                  &bus, vehicle_bus ? &*vehicle_bus : nullptr));
   for (const std::string& missing : engine.missing()) log_line(Severity::warning, missing);
   std::optional<platform::MapLoader> loader;  // after the memory was locked: its stack need not be
   if (setup.window) loader.emplace(*setup.window);

@@ -15,6 +15,7 @@ void take_counts(platform::RunningEngine& engine, const platform::ReceiveCounter
   result.pipeline.other_senders += received.strangers;
   result.stream = status.stream;
   result.odometry = status.odometry;
+  result.gnss = status.gnss;
   result.frames_dropped = engine.publish_counters().frames_dropped;
   result.poses_saturated = engine.publish_counters().poses_saturated;
   for (std::size_t i = 0; i < platform::kStageCount; ++i) {

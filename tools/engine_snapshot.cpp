@@ -45,6 +45,7 @@ void add_counts(platform::EngineStatus& status, const platform::SolveStatus& sol
   status.fixes_dropped = solve.counters.fixes_dropped;
   status.points_dropped = solve.pipeline.points_overflowed + solve.pipeline.points_unfiltered;
   status.odometry = solve.odometry;
+  status.gnss = solve.gnss;
   status.clock_steps = solve.stream.clock_steps;
   status.sensor_restarts = solve.stream.restarts;
 }

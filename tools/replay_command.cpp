@@ -115,7 +115,7 @@ void warn_of_window(const platform::MapWindowCounters& counters) {
 /// What a replay is connected to.
 struct Seams {
   platform::FrameSink* bus;
-  platform::FrameSource& odometry;
+  platform::FrameSource& vehicle_bus;
   TraceWriter* trace;
 };
 
@@ -136,7 +136,7 @@ struct Seams {
         if (setup.window) (void)setup.window->load();  // here, so that two replays are the same
         show_progress(fmt::format("{:3.0f} %  {}", source.percent_read(), ndt::to_string(sweep.fix.state)));
       },
-      &seams.odometry);
+      &seams.vehicle_bus);
   warn_of_losses(capture.string(), source.counters());
   return result;
 }
@@ -151,7 +151,8 @@ struct Seams {
   const bool keep_sweeps = arguments.laps == 1 || !arguments.trajectory.empty() || !arguments.truth.empty() ||
                            !arguments.svg.empty() || !arguments.report.empty();
   platform::RunningEngine engine(platform::Engine(engine_settings(setup, mode), setup.decoder, setup.map(),
-                                                  setup.window.get(), receiver, seams.bus, &seams.odometry));
+                                                  setup.window.get(), receiver, seams.bus,
+                                                  &seams.vehicle_bus));
   for (const std::string& missing : engine.missing()) fmt::print(stderr, "landfix: {}\n", missing);
   std::optional<platform::MapLoader> loader;  // after the memory was locked: its stack need not be
   if (setup.window) loader.emplace(*setup.window);
@@ -171,12 +172,13 @@ struct Seams {
   return result;
 }
 
-[[nodiscard]] std::vector<platform::StampedFrame> read_odometry(const ReplayArguments& arguments,
-                                                                const ReplaySetup& setup) {
+[[nodiscard]] std::vector<platform::StampedFrame> read_vehicle_bus(const ReplayArguments& arguments,
+                                                                   const ReplaySetup& setup) {
   if (arguments.odometry.empty()) return {};
-  if (setup.settings.odometry.count == 0) {
-    throw UsageError(fmt::format("--odometry: [[odometry.signal]] in {} must say what the frames mean",
-                                 arguments.input.config.string()));
+  if (setup.settings.odometry.count + setup.settings.gnss.count == 0) {
+    throw UsageError(
+        fmt::format("--odometry: [[odometry.signal]] or [[gnss.signal]] in {} must say what the frames mean",
+                    arguments.input.config.string()));
   }
   return platform::read_candump(arguments.odometry);
 }
@@ -191,11 +193,11 @@ void replay(const ReplayArguments& arguments) {
                                             ? arguments.input.config.parent_path() / "capture.pcap"
                                             : std::filesystem::path(arguments.pcap);
   platform::FrameSink* const sink = bus ? &*bus : nullptr;
-  const std::vector<platform::StampedFrame> logged = read_odometry(arguments, setup);
-  platform::FrameLog odometry(logged);
+  const std::vector<platform::StampedFrame> logged = read_vehicle_bus(arguments, setup);
+  platform::FrameLog vehicle_bus(logged);
   std::optional<TraceWriter> trace;
   if (!arguments.trace.empty()) trace.emplace(arguments.trace);
-  const Seams seams{.bus = sink, .odometry = odometry, .trace = trace ? &*trace : nullptr};
+  const Seams seams{.bus = sink, .vehicle_bus = vehicle_bus, .trace = trace ? &*trace : nullptr};
   const ReplayResult result = uses_threads(arguments) ? replay_in_threads(arguments, setup, capture, seams)
                                                       : replay_at_once(setup, capture, seams);
   show_progress("");
@@ -242,8 +244,9 @@ void add_replay_command(CLI::App& app) {
                   "pose at the first sweep, map <- vehicle [m, deg], in place of the configuration's");
   add_file("--trajectory", arguments->trajectory, "OUT.tum", "write the poses");
   add_file("--candump", arguments->candump, "OUT.log", "write the CAN frames, as candump -l does");
-  add_file("--odometry", arguments->odometry, "CAN.log",
-           "frames of the vehicle's bus, as candump -l writes them: what [odometry] tells how to read");
+  add_file(
+      "--odometry", arguments->odometry, "CAN.log",
+      "frames of the vehicle's bus, as candump -l writes them: what [odometry] and [gnss] tell how to read");
   add_file("--truth", arguments->truth, "TRUTH.tum", "true trajectory: report the errors against it");
   add_file("--svg", arguments->svg, "OUT.svg", "draw the trajectory over the map");
   add_file("--report", arguments->report, "OUT.html", "write all of it as one page for a browser");

@@ -89,6 +89,9 @@ nlohmann::ordered_json to_json(const ReplayReport& report) {
   object["pairs_dropped"] = counters.pairs_dropped;
   object["clock_steps"] = stream.clock_steps;
   object["restarts"] = stream.restarts;
+  if (const platform::GnssCounters& gnss = result.gnss; gnss.frames != 0) {
+    object["gnss"] = {{"frames", gnss.frames}, {"invalid", gnss.invalid}, {"guesses", gnss.guesses}};
+  }
   if (const platform::OdometryStatus& odometry = result.odometry; odometry.counters.frames != 0) {
     object["odometry"] = {
         {"frames", odometry.counters.frames},           {"samples", odometry.counters.samples},
@@ -152,6 +155,10 @@ std::string to_text(const ReplayReport& report) {
        {result.poses_saturated, "poses beyond what their CAN frames can say"}}};
   for (const auto& [lost, what] : losses) {
     if (lost != 0) text += fmt::format("dropped      {} {}\n", lost, what);
+  }
+  if (const platform::GnssCounters& gnss = result.gnss; gnss.frames != 0) {
+    fmt::print("gnss         {} frames, {} values invalid; looked for {} sweeps where it says\n", gnss.frames,
+               gnss.invalid, gnss.guesses);
   }
   if (const platform::OdometryStatus& odometry = result.odometry; odometry.counters.frames != 0) {
     const auto verdict = [](bool is_believed) { return is_believed ? "believed" : "left out"; };

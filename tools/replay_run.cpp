@@ -16,7 +16,7 @@ std::vector<ndt::StampedPose> ReplayResult::trajectory() const {
 
 ReplayResult run_replay(platform::PacketSource& source, platform::Pipeline& pipeline,
                         const std::function<void(const platform::SweepResult&)>& on_sweep,
-                        platform::FrameSource* odometry) {
+                        platform::FrameSource* vehicle_bus) {
   ReplayResult result;
   platform::UdpPacket packet;
   platform::ReadStatus status = platform::ReadStatus::packet;
@@ -27,7 +27,7 @@ ReplayResult run_replay(platform::PacketSource& source, platform::Pipeline& pipe
     platform::HeapCounter::arm();
     if (!has_read) status = source.next(packet);
     const bool is_packet = status == platform::ReadStatus::packet;
-    if (is_packet && odometry != nullptr) pipeline.add_odometry(*odometry, packet.receive_utc_ns);
+    if (is_packet && vehicle_bus != nullptr) pipeline.listen(*vehicle_bus, packet.receive_utc_ns);
     auto sweep = is_packet ? pipeline.predict_missing(packet.receive_utc_ns) : pipeline.finish();
     has_read = is_packet && sweep.has_value();
     if (is_packet && !has_read) sweep = pipeline.process(packet);
@@ -44,6 +44,7 @@ ReplayResult run_replay(platform::PacketSource& source, platform::Pipeline& pipe
   result.pipeline = pipeline.counters();
   result.stream = pipeline.stream_counters();
   result.odometry = pipeline.odometry().status();
+  result.gnss = pipeline.gnss().counters();
   result.frames_dropped = pipeline.publish_counters().frames_dropped;
   result.poses_saturated = pipeline.publish_counters().poses_saturated;
   for (std::size_t i = 0; i < platform::kStageCount; ++i) {

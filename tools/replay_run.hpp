@@ -20,6 +20,7 @@ struct ReplayResult {
   platform::PipelineCounters pipeline;
   drivers::StreamCounters stream;
   platform::OdometryStatus odometry;
+  platform::GnssCounters gnss;
   std::uint64_t frames_dropped = 0;                   ///< that the bus did not take
   std::uint64_t poses_saturated = 0;                  ///< with a value beyond its signal's range
   std::vector<platform::LatencyHistogram> durations;  ///< by Stage
@@ -43,10 +44,10 @@ struct ReplayResult {
   }
 };
 
-/// Feeds all of `source` to the pipeline, and before each packet the frames of `odometry` that came earlier.
-/// `on_sweep` is called after each sweep, for progress.
+/// Feeds all of `source` to the pipeline, and before each packet the frames of `vehicle_bus` that came
+/// earlier. `on_sweep` is called after each sweep, for progress.
 [[nodiscard]] ReplayResult run_replay(platform::PacketSource& source, platform::Pipeline& pipeline,
                                       const std::function<void(const platform::SweepResult&)>& on_sweep,
-                                      platform::FrameSource* odometry = nullptr);
+                                      platform::FrameSource* vehicle_bus = nullptr);
 
 }  // namespace landfix::tools

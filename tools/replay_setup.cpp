@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "drivers/make_decoder.hpp"
+#include "ndt/map_middle.hpp"
 #include "platform/ipv4.hpp"
 #include "platform/map_projector_info.hpp"
 #include "tools/command.hpp"
@@ -29,8 +30,10 @@ namespace {
                                                       const drivers::SensorModel& model,
                                                       const ReplayInput& input) {
   const auto& initial_pose = input.initial_pose ? input.initial_pose : configuration.initial_pose.pose;
-  if (!initial_pose) {
-    throw UsageError("no initial pose: give --initial-pose, or [initial_pose] pose in the configuration");
+  if (!initial_pose && configuration.gnss.count == 0) {
+    throw UsageError(
+        "no initial pose: give --initial-pose, or [initial_pose] pose or [[gnss.signal]] in the "
+        "configuration");
   }
   platform::PipelineSettings settings{
       .port = configuration.sensor.port != 0 ? configuration.sensor.port : model.data_port,
@@ -40,9 +43,10 @@ namespace {
       .sensor_pose = configuration.vehicle.sensor_pose,
       .filter = configuration.filter,
       .deskew = input.deskew,
-      .initial_pose = *initial_pose,
+      .initial_pose = initial_pose,
       .publish = {.can_base_id = configuration.can.base_id, .can_fd = configuration.can.fd},
-      .odometry = configuration.odometry};
+      .odometry = configuration.odometry,
+      .gnss = configuration.gnss};
   settings.localizer.matcher.max_iterations = configuration.matcher.max_iterations;
   return settings;
 }
@@ -64,8 +68,14 @@ namespace {
   const std::filesystem::path& projector = setup.configuration.map.projector;
   platform::MapReference reference;
   if (!projector.empty()) reference = platform::read_map_projector_info(projector);
+  if (setup.configuration.gnss.count != 0 && !reference.projection) {
+    throw UsageError(
+        "[gnss] needs [map] projector, a map_projector_info.yaml that is not Local: how latitude and "
+        "longitude "
+        "become the map's x and y");
+  }
   reference.hash = hash_of(setup.map_checksum());
-  reference.origin = platform::map_origin_near(setup.settings.initial_pose.translation());
+  reference.origin = platform::map_origin_near(setup.start_m());
   return reference;
 }
 
@@ -81,11 +91,19 @@ void add_map(ReplaySetup& setup, const std::filesystem::path& path) {
   }
   const platform::MapWindowSettings settings{.memory_bytes = static_cast<std::size_t>(memory_bytes),
                                              .reach_m = setup.configuration.sensor.max_range_m};
-  setup.window =
-      std::make_unique<platform::MapWindow>(path, settings, setup.settings.initial_pose.translation());
+  std::optional<Eigen::Vector3d> start_m;
+  if (setup.settings.initial_pose) start_m = setup.settings.initial_pose->translation();
+  setup.window = std::make_unique<platform::MapWindow>(path, settings, start_m);
 }
 
 }  // namespace
+
+Eigen::Vector3d ReplaySetup::start_m() const {
+  if (settings.initial_pose) return settings.initial_pose->translation();
+  if (window) return window->start_m();
+  const ndt::VoxelMap whole = map();
+  return ndt::middle_m(whole.blocks(), whole.resolution_m());
+}
 
 ReplaySetup prepare_replay(const ReplayInput& input) {
   platform::Configuration configuration = platform::read_configuration(input.config);

@@ -33,16 +33,18 @@ struct ReplaySetup {
   std::unique_ptr<platform::MapWindow> window;  ///< where the map is larger than its memory
 
   [[nodiscard]] ndt::VoxelMap map() const {
-    return window ? window->newest(settings.initial_pose.translation()) : ndt::VoxelMap(image.bytes());
+    return window ? window->newest(window->start_m()) : ndt::VoxelMap(image.bytes());
   }
+  /// Where the vehicle is at first, or the middle of the map.
+  [[nodiscard]] Eigen::Vector3d start_m() const;
   /// That covers all of the map.
   [[nodiscard]] std::uint32_t map_checksum() const {
     return window ? window->map_checksum() : map().header().header_checksum;
   }
 };
 
-/// Throws UsageError where the map or the initial pose is given nowhere, std::runtime_error where a file does
-/// not do.
+/// Throws UsageError where the map or the initial pose is given nowhere, or what a section needs of another;
+/// std::runtime_error where a file does not do.
 [[nodiscard]] ReplaySetup prepare_replay(const ReplayInput& input);
 
 }  // namespace landfix::tools

@@ -87,7 +87,8 @@ void add_simulate_command(CLI::App& app) {
       ->required();
   command
       ->add_option("--output", arguments->output,
-                   "folder for capture.pcap, truth.tum, odometry.log, map.pcd, config.toml, calibration")
+                   "folder for capture.pcap, truth.tum, odometry.log, map.pcd, map_projector_info.yaml, "
+                   "config.toml, calibration")
       ->required();
   command->add_option("--seed", arguments->seed, "another world and other noise; by default the route's");
   command->add_option("--length", arguments->length_m,

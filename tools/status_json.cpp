@@ -48,6 +48,8 @@ nlohmann::ordered_json to_json(const platform::EngineStatus& status) {
                         {"times_left_out", odometry.counters.times_left_out},
                         {"speed_believed", odometry.is_speed_believed},
                         {"yaw_rate_believed", odometry.is_yaw_rate_believed}};
+  object["gnss"] = {
+      {"frames", status.gnss.frames}, {"invalid", status.gnss.invalid}, {"guesses", status.gnss.guesses}};
   object["can"] = {{"state", platform::to_string(status.bus.state)},
                    {"frames", status.bus.frames_sent},
                    {"dropped_queue_full", status.bus.dropped_queue_full},

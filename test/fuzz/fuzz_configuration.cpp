@@ -47,6 +47,24 @@ scale = 0.01
 unit = "km/h"
 invalid_raw = [0x7FFF]
 timeout_s = 0.2
+[gnss]
+antenna = [0.5, 0.0, 1.5]
+accuracy_m = 3.0
+[[gnss.signal]]
+role = "latitude"
+id = 0x1B0
+start = 0
+length = 32
+signed = true
+scale = 1e-7
+[[gnss.signal]]
+role = "longitude"
+id = 0x1B0
+start = 32
+length = 32
+signed = true
+scale = 1e-7
+unit = "deg"
 )";
   try {
     (void)landfix::platform::parse_configuration(landfix::test::fuzzed_text(sound, std::span(data, size)),

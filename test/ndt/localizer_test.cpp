@@ -129,6 +129,41 @@ TEST_F(Drive, MayBecomeLostWhereTheClockIsSetBack) {
   EXPECT_EQ(last, State::lost);
 }
 
+TEST_F(Drive, WithoutAPoseIsFoundNearAGuess) {
+  Localizer localizer(map_, {}, std::nullopt);
+  EXPECT_EQ(localizer.localize(scan(0), kSweep_ns * 10).state, State::init) << "no guess, no search";
+  int searched = 0;
+  for (int sweep = 1; sweep < 25; ++sweep) {
+    const Pose there = truth(sweep);
+    localizer.expect_near(PoseGuess{.position_m = there.translation().head<2>() + Eigen::Vector2d(1.5, -1.0),
+                                    .yaw_rad = to_roll_pitch_yaw(there.linear()).yaw_rad + 0.05});
+    const Fix fix = localizer.localize(scan(sweep), kSweep_ns * (10 + sweep));
+    if (fix.state == State::init) {
+      EXPECT_FALSE(is_usable(fix.state));
+      ++searched;
+      continue;
+    }
+    EXPECT_EQ(fix.state, State::tracking) << sweep;
+    EXPECT_LT(error_m(fix, sweep), 0.05) << sweep;
+  }
+  EXPECT_LT(searched, 12);
+  EXPECT_GE(searched, 4) << "it has to be confirmed";
+}
+
+TEST_F(Drive, APoseThatIsWrongGivesWayToAGuess) {
+  Localizer localizer(map_, {}, start_ * make_pose({8.0, 5.0, 0.0}, {.yaw_rad = 1.5}));
+  State last = State::init;
+  for (int sweep = 0; sweep < 25; ++sweep) {
+    localizer.expect_near(PoseGuess{.position_m = truth(sweep).translation().head<2>()});
+    const Fix fix = localizer.localize(scan(sweep), kSweep_ns * (10 + sweep));
+    last = fix.state;
+    if (last == State::tracking) {
+      EXPECT_LT(error_m(fix, sweep), 0.05) << sweep;
+    }
+  }
+  EXPECT_EQ(last, State::tracking);
+}
+
 TEST_F(Drive, IsFoundAgainWhereItHasDrivenUnseen) {
   for (int sweep = 0; sweep < 5; ++sweep) (void)localize(sweep);
   (void)localizer_.wait_for_data(kSweep_ns * 25);

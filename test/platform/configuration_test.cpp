@@ -73,21 +73,25 @@ TEST(Configuration, TheExampleSaysTheDefaults) {
   EXPECT_EQ(example.metrics.address, defaults.metrics.address);
   EXPECT_EQ(example.odometry.count, 0U);
   EXPECT_EQ(example.odometry.track_m, defaults.odometry.track_m);
+  EXPECT_EQ(example.gnss.count, 0U);
+  EXPECT_EQ(example.gnss.antenna_m, defaults.gnss.antenna_m);
+  EXPECT_EQ(example.gnss.accuracy_m, defaults.gnss.accuracy_m);
 }
 
 TEST(Configuration, TheExampleMentionsEveryKey) {
   const auto bytes = read_file(kExample);
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   for (const char* section : {"sensor", "vehicle", "map", "initial_pose", "filter", "matcher", "can",
-                              "realtime", "metrics", "odometry"}) {
+                              "realtime", "metrics", "odometry", "gnss"}) {
     // The message for an unknown key lists those that are known.
     const std::string error = error_of(section, "nonsense = 1");
     const std::string has = fmt::format("[{}] has ", section);
     ASSERT_THAT(error, HasSubstr(has));
     std::istringstream keys(error.substr(error.find(has) + has.size()));
     for (std::string key; std::getline(keys >> std::ws, key, ',');) {
-      EXPECT_THAT(text, HasSubstr(fmt::format("\n{}{}", key == "pose" ? "# " : "",
-                                              key == "signal" ? "# [[odometry.signal]]" : key + " = ")))
+      EXPECT_THAT(text, HasSubstr(fmt::format(
+                            "\n{}{}", key == "pose" ? "# " : "",
+                            key == "signal" ? fmt::format("# [[{}.signal]]", section) : key + " = ")))
           << section;
     }
   }

@@ -76,6 +76,19 @@ TEST(MapProjection, IsThatOfIndependentCalculations) {
   }
 }
 
+TEST(MapProjection, LeadsThereAndBack) {
+  for (const Golden& golden : kGolden) {
+    const MapReference reference = parse(golden.text);
+    const MapPlace place = to_map(*reference.projection, golden.expected);
+    EXPECT_LT((place.position_m - golden.position_m).norm(), 2e-5) << golden.name;
+    // A step of 100 m in the direction that is said to be north changes the latitude alone.
+    const Eigen::Vector3d north_m(std::cos(place.north_rad), std::sin(place.north_rad), 0.0);
+    const GeodeticPosition to = to_geodetic(*reference.projection, golden.position_m + 100.0 * north_m);
+    EXPECT_GT(to.latitude_deg, golden.expected.latitude_deg + 0.0008) << golden.name;
+    EXPECT_NEAR(to.longitude_deg, golden.expected.longitude_deg, 1e-8) << golden.name;
+  }
+}
+
 TEST(MapProjection, DoesNotTouchTheHeap) {
   if (!HeapCounter::available()) GTEST_SKIP() << "the heap is not counted here";
   for (const Golden& golden : kGolden) {

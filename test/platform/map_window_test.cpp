@@ -111,7 +111,7 @@ class MapWindowTest : public testing::Test {
 };
 
 TEST_F(MapWindowTest, FollowsTheVehicleAndAlwaysReachesAsFarAsTheSensor) {
-  MapWindow window(path_, {.memory_bytes = 1 << 20, .reach_m = 50.0}, {100.0, 5.0, 0.0});
+  MapWindow window(path_, {.memory_bytes = 1 << 20, .reach_m = 50.0}, Eigen::Vector3d(100.0, 5.0, 0.0));
   for (double x_m = 100.0; x_m < 900.0; x_m += 3.0) {
     const ndt::VoxelMap map = window.newest({x_m, 5.0, 0.0});
     for (double ahead_m = -50.0; ahead_m <= 50.0; ahead_m += 5.0) EXPECT_TRUE(has_road(map, x_m + ahead_m));
@@ -124,7 +124,7 @@ TEST_F(MapWindowTest, FollowsTheVehicleAndAlwaysReachesAsFarAsTheSensor) {
 }
 
 TEST_F(MapWindowTest, LoadsNothingWhileTheVehicleStaysOrTheSolverHasNotTakenTheLastWindow) {
-  MapWindow window(path_, {.memory_bytes = 1 << 20, .reach_m = 50.0}, {100.0, 5.0, 0.0});
+  MapWindow window(path_, {.memory_bytes = 1 << 20, .reach_m = 50.0}, Eigen::Vector3d(100.0, 5.0, 0.0));
   (void)window.newest({105.0, 5.0, 0.0});
   EXPECT_FALSE(window.load());
   (void)window.newest({150.0, 5.0, 0.0});
@@ -137,7 +137,7 @@ TEST_F(MapWindowTest, LoadsNothingWhileTheVehicleStaysOrTheSolverHasNotTakenTheL
 
 TEST_F(MapWindowTest, ItsHandOverAllocatesNothing) {
   if (!HeapCounter::available()) GTEST_SKIP() << "the heap cannot be counted here";
-  MapWindow window(path_, {.memory_bytes = 1 << 20, .reach_m = 50.0}, {100.0, 5.0, 0.0});
+  MapWindow window(path_, {.memory_bytes = 1 << 20, .reach_m = 50.0}, Eigen::Vector3d(100.0, 5.0, 0.0));
   const std::uint64_t before = HeapCounter::calls();
   HeapCounter::arm();
   for (double x_m = 100.0; x_m < 900.0; x_m += 10.0) {
@@ -149,14 +149,20 @@ TEST_F(MapWindowTest, ItsHandOverAllocatesNothing) {
   EXPECT_GT(window.counters().windows, 15U);
 }
 
+TEST_F(MapWindowTest, WithoutAPlaceBeginsInTheMiddle) {
+  MapWindow window(path_, {.memory_bytes = 1 << 20, .reach_m = 50.0}, std::nullopt);
+  EXPECT_NEAR(window.start_m().x(), 500.0, 20.0);
+  EXPECT_TRUE(has_road(window.newest(window.start_m()), window.start_m().x()));
+}
+
 TEST_F(MapWindowTest, SaysHowManyTilesFoundNoRoom) {
-  MapWindow window(path_, {.memory_bytes = 100'000, .reach_m = 50.0}, {500.0, 5.0, 0.0});
+  MapWindow window(path_, {.memory_bytes = 100'000, .reach_m = 50.0}, Eigen::Vector3d(500.0, 5.0, 0.0));
   EXPECT_GT(window.counters().tiles_not_fitting, 0U);
   EXPECT_TRUE(has_road(window.newest({500.0, 5.0, 0.0}), 500.0)) << "the nearest are there";
 }
 
 TEST_F(MapWindowTest, ATileDamagedOnDiskIsCountedAndTheRestGoesOn) {
-  MapWindow window(path_, {.memory_bytes = 1 << 20, .reach_m = 50.0}, {100.0, 5.0, 0.0});
+  MapWindow window(path_, {.memory_bytes = 1 << 20, .reach_m = 50.0}, Eigen::Vector3d(100.0, 5.0, 0.0));
   {
     // In place, under the open file: half of the voxels.
     const ndt::MapLayout layout(ndt::VoxelMap(image_.bytes()).header());
@@ -174,7 +180,7 @@ TEST_F(MapWindowTest, ATileDamagedOnDiskIsCountedAndTheRestGoesOn) {
 }
 
 TEST_F(MapWindowTest, ALoaderThreadKeepsUpWithASolverThatNeverWaits) {
-  MapWindow window(path_, {.memory_bytes = 1 << 20, .reach_m = 50.0}, {100.0, 5.0, 0.0});
+  MapWindow window(path_, {.memory_bytes = 1 << 20, .reach_m = 50.0}, Eigen::Vector3d(100.0, 5.0, 0.0));
   const MapLoader loader(window);
   std::size_t voxels = 0;
   for (double x_m = 100.0; x_m < 900.0; x_m += 1.0) {

@@ -39,8 +39,8 @@ TEST(OdometryConfiguration, ReadsASignal) {
             "extended = true\nstart = 3\nlength = 1\n");
   ASSERT_EQ(settings.count, 2U);
   EXPECT_EQ(settings.track_m, 1.6);
-  const OdometrySignal& speed = settings.signals[0];
-  EXPECT_EQ(speed.role, OdometryRole::speed);
+  const VehicleSignal& speed = settings.signals[0];
+  EXPECT_EQ(speed.role, VehicleRole::speed);
   EXPECT_EQ(speed.id, 0x1A0U);
   EXPECT_EQ(speed.field.start, 6U);
   EXPECT_EQ(speed.field.length, 15U);

@@ -14,21 +14,21 @@ constexpr std::int64_t kStart = 1'700'000'000'000 * kNs_per_ms;
 
 OdometrySettings settings_of(bool has_reverse = false) {
   OdometrySettings settings;
-  settings.signals[0] = {.role = OdometryRole::speed,
+  settings.signals[0] = {.role = VehicleRole::speed,
                          .id = 0x10,
                          .field = {.start = 0, .length = 16, .is_signed = true},
                          .scale = 0.01,
                          .low = -100.0,
                          .high = 100.0,
                          .timeout_ns = 200 * kNs_per_ms};
-  settings.signals[1] = {.role = OdometryRole::yaw_rate,
+  settings.signals[1] = {.role = VehicleRole::yaw_rate,
                          .id = 0x11,
                          .field = {.start = 0, .length = 16, .is_signed = true},
                          .scale = 0.0001,
                          .low = -3.0,
                          .high = 3.0,
                          .timeout_ns = 200 * kNs_per_ms};
-  settings.signals[2] = {.role = OdometryRole::reverse,
+  settings.signals[2] = {.role = VehicleRole::reverse,
                          .id = 0x12,
                          .field = {.start = 0, .length = 1},
                          .low = 0.0,
@@ -190,7 +190,7 @@ TEST(Odometry, FourWheelsGiveSpeedAndYawRate) {
   settings.track_m = 1.6;
   settings.count = 4;
   for (std::uint16_t i = 0; i < 4; ++i) {
-    settings.signals[i] = {.role = static_cast<OdometryRole>(static_cast<int>(OdometryRole::wheel_fl) + i),
+    settings.signals[i] = {.role = static_cast<VehicleRole>(static_cast<int>(VehicleRole::wheel_fl) + i),
                            .id = 0x20,
                            .field = {.start = static_cast<std::uint16_t>(16 * i), .length = 16},
                            .scale = 0.01,

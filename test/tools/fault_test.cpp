@@ -209,7 +209,11 @@ TEST_F(Faults, Silence) {
                                        {"1.5 s of silence", 1.5},
                                        {"3 s of silence", 3.0},
                                        {"5 s of silence", 5.0},
-                                       {"10 s of silence", 10.0}}) {
+                                       {"7 s of silence", 7.0},
+                                       {"10 s of silence", 10.0},
+                                       // Where half of a sweep fits another place.
+                                       {"10.6 s of silence", 10.6},
+                                       {"10.8 s of silence", 10.8}}) {
     expect_survival(
         {.name = name, .spoil = silence(length_s), .until_s = kFrom_s + length_s, .recovery_limit_s = 3.0});
   }
@@ -375,7 +379,8 @@ TEST_F(Faults, ABusThatIsDown) {
   const Fault fault{.name = "bus down for 10 s", .spoil = [](const PacketList& packets) { return packets; }};
   const ReplayResult result = replay(packets(), &bus);
   expect_survival(fault, result);
-  EXPECT_EQ(result.frames_dropped, 100U * 6U + 10U) << "and LOC_MAP each second";
+  EXPECT_EQ(result.frames_dropped, 100U * 8U + 10U)
+      << "six of the pose, latitude and longitude; and LOC_MAP each second";
   EXPECT_GT(bus.before, 40U);
   EXPECT_GT(bus.after, 100U);
 }

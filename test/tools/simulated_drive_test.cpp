@@ -350,6 +350,11 @@ TEST_F(SimulatedDrive, MissingSweepsArePredicted) {
   EXPECT_EQ(result.sweeps.end()[-2].fix.state, ndt::State::tracking);
   expect_tracking_is_true(result, path("truth.tum"));
   EXPECT_TRUE(!result.heap_calls || *result.heap_calls == 0U);
+  const auto late = std::ranges::count_if(result.sweeps, &platform::SweepResult::late);
+  EXPECT_EQ(late, 1) << "what was seen of the turn that the gap cuts short";
+  const auto frames = platform::read_candump(path("silence0.3.log"));
+  EXPECT_TRUE(std::ranges::is_sorted(frames, {}, &platform::StampedFrame::stamp_utc_ns))
+      << "no pose goes back";
   const std::string first = test::text_of(path("silence0.3.log"));
   EXPECT_EQ(platform::format_tum(replay_with_silence(path(""), 0.3).trajectory()),
             platform::format_tum(poses));

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "platform/candump_log.hpp"
+#include "tools/simulator/gnss_receiver.hpp"
 #include "tools/simulator/random.hpp"
 
 namespace landfix::tools::simulator {
@@ -16,6 +17,7 @@ namespace {
 constexpr std::uint32_t kSpeedId = 0x1A0;
 constexpr std::uint32_t kYawRateId = 0x1A1;
 constexpr std::int64_t kPeriod_ns = 10'000'000;  // of the speed; the yaw rate comes every other time
+constexpr std::int64_t kGnssEvery = 20;          // times
 constexpr std::int64_t kLatency_ns = 2'000'000;  // from the wheels to the bus
 constexpr std::int64_t kStandBefore_ns = 500'000'000;
 
@@ -63,6 +65,7 @@ void write_odometry_log(const Drive& drive, const std::filesystem::path& path) {
   const VehicleMotion& vehicle = drive.vehicle();
   platform::CandumpLog log(path, "can0");
   Random noise(drive.seed(), RandomStream::odometry);
+  GnssReceiver gnss(drive);
   const auto end_ns = static_cast<std::int64_t>(vehicle.duration_s() * 1e9);
   std::int64_t count = 0;
   for (std::int64_t at_ns = -kStandBefore_ns; at_ns < end_ns; at_ns += kPeriod_ns, ++count) {
@@ -79,6 +82,7 @@ void write_odometry_log(const Drive& drive, const std::filesystem::path& path) {
         yaw_rate_at(vehicle, time_s) + kYawRateBias_radps + kYawRateNoise_radps * noise.normal();
     const platform::CanFrame yaw_rate = yaw_rate_frame(rate_radps);
     (void)log.send({&yaw_rate, 1}, stamp_utc_ns);
+    if (count % kGnssEvery == 0) (void)log.send(gnss.frames_at(time_s), stamp_utc_ns);
   }
   log.commit();
 }

@@ -21,9 +21,9 @@ struct SimulationSummary {
 /// Called with the share that is done, from 0 to 1.
 using Progress = std::function<void(double)>;
 
-/// Writes capture.pcap, truth.tum, odometry.log, map.pcd, config.toml and the unit's calibration, where it
-/// has one, to `folder`, which is made if it is missing. The same drive gives the same bytes. Throws
-/// std::runtime_error where a file cannot be written.
+/// Writes capture.pcap, truth.tum, odometry.log, map.pcd, map_projector_info.yaml, config.toml and the unit's
+/// calibration, where it has one, to `folder`, which is made if it is missing. The same drive gives the same
+/// bytes. Throws std::runtime_error where a file cannot be written.
 SimulationSummary write_drive(const Drive& drive, const std::filesystem::path& folder,
                               const Progress& progress);
 

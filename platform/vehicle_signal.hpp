@@ -26,16 +26,29 @@ struct RawField {
 /// The bits alone, 0 where the frame has none.
 [[nodiscard]] std::uint64_t read_raw(std::span<const std::byte> payload, RawField field) noexcept;
 
-enum class OdometryRole : std::uint8_t { speed, wheel_fl, wheel_fr, wheel_rl, wheel_rr, yaw_rate, reverse };
-inline constexpr std::array<std::string_view, 7> kOdometryRoleNames{
-    "speed", "wheel_fl", "wheel_fr", "wheel_rl", "wheel_rr", "yaw_rate", "reverse"};
+enum class VehicleRole : std::uint8_t {
+  speed,
+  wheel_fl,
+  wheel_fr,
+  wheel_rl,
+  wheel_rr,
+  yaw_rate,
+  reverse,
+  latitude,
+  longitude,
+  altitude,
+  heading,
+};
+inline constexpr std::array<std::string_view, 11> kVehicleRoleNames{
+    "speed",   "wheel_fl", "wheel_fr",  "wheel_rl", "wheel_rr", "yaw_rate",
+    "reverse", "latitude", "longitude", "altitude", "heading"};
 
-struct OdometrySignal {
-  OdometryRole role{};
+struct VehicleSignal {
+  VehicleRole role{};
   std::uint32_t id = 0;
   bool extended = false;
   RawField field{};
-  double scale = 1.0;                        ///< of a raw step, in SI units: m/s, rad/s
+  double scale = 1.0;                        ///< of a raw step, in SI units: m, m/s, rad, rad/s
   double offset = 0.0;                       ///< added then, in SI units
   std::optional<std::uint16_t> sign_bit{};   ///< set: the value is negative
   std::optional<std::uint16_t> valid_bit{};  ///< what it says depends on `valid_value`
@@ -53,6 +66,38 @@ struct OdometrySignal {
 
 /// In SI units; nothing where the frame is too short, the signal says that it is not valid, or its value is
 /// beyond its limits. The signal must be in the frame.
-[[nodiscard]] std::optional<double> value_of(const OdometrySignal& signal, const CanFrame& frame) noexcept;
+[[nodiscard]] std::optional<double> value_of(const VehicleSignal& signal, const CanFrame& frame) noexcept;
+
+/// Those that one part of the program listens to.
+struct VehicleSignals {
+  static constexpr std::size_t kMax = 16;
+
+  std::array<VehicleSignal, kMax> signals{};
+  std::size_t count = 0;
+
+  [[nodiscard]] std::span<const VehicleSignal> all() const& noexcept {
+    return std::span(signals).first(count);
+  }
+  /// The signals would be gone.
+  std::span<const VehicleSignal> all() const&& = delete;
+  [[nodiscard]] bool has(VehicleRole role) const noexcept;
+};
+
+/// The newest value of a signal, and how long it counts.
+class LatestValue {
+ public:
+  void set(double value, std::int64_t stamp_utc_ns, std::int64_t timeout_ns) noexcept {
+    value_ = value;
+    stamp_utc_ns_ = stamp_utc_ns;
+    timeout_ns_ = timeout_ns;
+  }
+  /// Nothing if it was never told, or too long ago.
+  [[nodiscard]] std::optional<double> at(std::int64_t stamp_utc_ns) const noexcept;
+
+ private:
+  double value_ = 0.0;
+  std::int64_t stamp_utc_ns_ = 0;
+  std::int64_t timeout_ns_ = -1;
+};
 
 }  // namespace landfix::platform

@@ -1,4 +1,4 @@
-#include "platform/odometry_signal.hpp"
+#include "platform/vehicle_signal.hpp"
 
 #include <random>
 #include <vector>
@@ -14,17 +14,17 @@ CanFrame frame_of(std::vector<int> bytes) {
   return frame;
 }
 
-OdometrySignal signal_at(RawField field) {
-  return {.role = OdometryRole::speed, .id = 0x123, .field = field, .low = -1e9, .high = 1e9};
+VehicleSignal signal_at(RawField field) {
+  return {.role = VehicleRole::speed, .id = 0x123, .field = field, .low = -1e9, .high = 1e9};
 }
 
-TEST(OdometrySignal, ReadsLittleEndianAtOddBits) {
+TEST(VehicleSignal, ReadsLittleEndianAtOddBits) {
   // 14 bits from bit 9 on, as Hyundai's wheels: 0x1234 << 9.
   const CanFrame frame = frame_of({0, 0x68, 0x24, 0});
   EXPECT_EQ(read_raw(frame.payload(), {.start = 9, .length = 14}), 0x1234U);
 }
 
-TEST(OdometrySignal, ReadsBigEndianAtOddBits) {
+TEST(VehicleSignal, ReadsBigEndianAtOddBits) {
   // 15 bits from bit 6 of byte 0 on, as Toyota's wheels.
   const CanFrame frame = frame_of({0x9A, 0x6F, 0xFF});
   EXPECT_EQ(read_raw(frame.payload(), {.start = 6, .length = 15, .motorola = true}), 0x1A6FU);
@@ -32,7 +32,7 @@ TEST(OdometrySignal, ReadsBigEndianAtOddBits) {
   EXPECT_EQ(read_raw(frame.payload(), {.start = 3, .length = 8, .motorola = true}), 0xA6U);
 }
 
-TEST(OdometrySignal, BothOrdersAgreeWithPlainArithmeticWhereverTheBitsAre) {
+TEST(VehicleSignal, BothOrdersAgreeWithPlainArithmeticWhereverTheBitsAre) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 2000; ++i) {
     CanFrame frame{.id = 0x123, .length = 8, .data = {}};
@@ -55,19 +55,19 @@ TEST(OdometrySignal, BothOrdersAgreeWithPlainArithmeticWhereverTheBitsAre) {
   }
 }
 
-TEST(OdometrySignal, AppliesSignScaleAndOffset) {
-  OdometrySignal signal = signal_at({.start = 7, .length = 12, .motorola = true, .is_signed = true});
+TEST(VehicleSignal, AppliesSignScaleAndOffset) {
+  VehicleSignal signal = signal_at({.start = 7, .length = 12, .motorola = true, .is_signed = true});
   signal.scale = -0.0014;
   signal.offset = 2.86;
   EXPECT_NEAR(value_of(signal, frame_of({0xFF, 0xE0})).value(), 2.86 + 2 * 0.0014, 1e-12);
-  OdometrySignal magnitude = signal_at({.start = 0, .length = 14});  // VW's yaw rate
+  VehicleSignal magnitude = signal_at({.start = 0, .length = 14});  // VW's yaw rate
   magnitude.sign_bit = 23;
   EXPECT_EQ(value_of(magnitude, frame_of({5, 0, 0x80})), -5.0);
   EXPECT_EQ(value_of(magnitude, frame_of({5, 0, 0x7F})), 5.0);
 }
 
-TEST(OdometrySignal, GivesNothingThatIsNotValid) {
-  OdometrySignal signal = signal_at({.start = 0, .length = 8});
+TEST(VehicleSignal, GivesNothingThatIsNotValid) {
+  VehicleSignal signal = signal_at({.start = 0, .length = 8});
   signal.valid_bit = 8;
   signal.invalid_raw = {0xFE, 0xFF};
   signal.invalid_count = 2;

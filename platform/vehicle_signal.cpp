@@ -1,4 +1,4 @@
-#include "platform/odometry_signal.hpp"
+#include "platform/vehicle_signal.hpp"
 
 #include <algorithm>
 
@@ -36,7 +36,7 @@ std::uint64_t read_raw(std::span<const std::byte> payload, RawField field) noexc
   return raw;
 }
 
-std::optional<double> value_of(const OdometrySignal& signal, const CanFrame& frame) noexcept {
+std::optional<double> value_of(const VehicleSignal& signal, const CanFrame& frame) noexcept {
   const auto payload = frame.payload();
   const auto has = [payload](std::uint16_t bit) { return bit / 8U < payload.size(); };
   if (bytes_of(signal.field) > payload.size()) return std::nullopt;
@@ -51,6 +51,20 @@ std::optional<double> value_of(const OdometrySignal& signal, const CanFrame& fra
   if (signal.sign_bit && bit_of(payload, *signal.sign_bit)) value = -value;
   if (!(value >= signal.low && value <= signal.high)) return std::nullopt;
   return value;
+}
+
+bool VehicleSignals::has(VehicleRole role) const noexcept {
+  const auto signals_of = all();
+  return std::any_of(signals_of.begin(), signals_of.end(),
+                     [role](const VehicleSignal& signal) { return signal.role == role; });
+}
+
+std::optional<double> LatestValue::at(std::int64_t stamp_utc_ns) const noexcept {
+  constexpr std::int64_t kClockWasSet_ns = 500'000'000;  // back, since it was told
+  if (timeout_ns_ < 0) return std::nullopt;
+  const std::int64_t age_ns = stamp_utc_ns - stamp_utc_ns_;
+  if (age_ns > timeout_ns_ || age_ns < -kClockWasSet_ns) return std::nullopt;
+  return value_;
 }
 
 }  // namespace landfix::platform
