@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -29,8 +30,8 @@ struct GnssCounters {
 class Gnss {
  public:
   /// `projection`: of the map; without one nothing can be told.
-  Gnss(const GnssSettings& settings, const std::optional<MapProjection>& projection) noexcept
-      : settings_(settings), projection_(projection) {}
+  Gnss(GnssSettings settings, std::optional<MapProjection> projection) noexcept
+      : settings_(std::move(settings)), projection_(std::move(projection)) {}
 
   void add(const CanFrame& frame, std::int64_t stamp_utc_ns) noexcept;
 
