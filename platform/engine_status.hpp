@@ -68,6 +68,7 @@ struct EngineStatus {
   std::uint64_t packets_rejected = 0;  ///< by the decoder
   std::uint64_t packets_lost = 0;      ///< between the sensor and here
   std::uint64_t packets_strangers = 0;
+  std::uint64_t receive_errors = 0;  ///< calls that the system refused
   std::uint64_t sweeps = 0;
   std::uint64_t sweeps_missing = 0;
   std::uint64_t sweeps_skipped = 0;

@@ -56,6 +56,7 @@ void add_received(platform::EngineStatus& status, const platform::ReceiveCounter
   status.packets_dropped_ring = received.dropped_ring_full;
   status.packets_truncated = received.truncated;
   status.packets_strangers = received.strangers;
+  status.receive_errors = received.errors;
 }
 
 }  // namespace

@@ -122,6 +122,7 @@ void add_counters(Metrics& metrics, const platform::EngineStatus& status) {
                   "Packets that the sensor sent and that never came.");
   metrics.counter("packets_foreign_total", status.packets_strangers,
                   "Packets of another sender than the sensor.");
+  metrics.counter("receive_errors_total", status.receive_errors, "Calls to receive that the system refused.");
   metrics.counter("scans_total", status.sweeps, "Sweeps that came, whole or in part.");
   metrics.counter("scans_missing_total", status.sweeps_missing,
                   "Sweeps that did not come and were predicted.");
@@ -144,6 +145,18 @@ void add_counters(Metrics& metrics, const platform::EngineStatus& status) {
     metrics.sample("state", platform::to_string(state), std::uint64_t{state == status.bus.state ? 1U : 0U});
   }
   metrics.counter("can_saturated_total", status.poses_saturated, "Poses beyond what their frames can say.");
+}
+
+void add_vehicle_bus(Metrics& metrics, const platform::EngineStatus& status) {
+  const platform::OdometryStatus& odometry = status.odometry;
+  metrics.counter("odometry_samples_total", odometry.counters.samples,
+                  "Samples of odometry that were taken.");
+  metrics.counter("odometry_left_out_total", odometry.counters.times_left_out,
+                  "Times that odometry disagreed with the LiDAR and was left out.");
+  metrics.family("odometry_believed", "gauge", "1 while odometry agrees with the LiDAR and is used.");
+  metrics.sample("quantity", "speed", std::uint64_t{odometry.is_speed_believed ? 1U : 0U});
+  metrics.sample("quantity", "yaw_rate", std::uint64_t{odometry.is_yaw_rate_believed ? 1U : 0U});
+  metrics.counter("gnss_guesses_total", status.gnss.guesses, "Sweeps that were looked for where GNSS says.");
 }
 
 void add_process(Metrics& metrics, const platform::EngineStatus& status) {
@@ -174,6 +187,7 @@ std::string to_prometheus(const platform::EngineStatus& status) {
   Metrics metrics;
   add_pose(metrics, status);
   add_counters(metrics, status);
+  add_vehicle_bus(metrics, status);
   metrics.family("stage_duration_seconds", "histogram", "What a pose's time is spent on.");
   for (std::size_t i = 0; i < platform::kStageCount; ++i) {
     metrics.histogram(to_string(static_cast<platform::Stage>(i)), status.stages[i]);

@@ -31,7 +31,8 @@ nlohmann::ordered_json to_json(const platform::EngineStatus& status) {
                        {"truncated", status.packets_truncated},
                        {"rejected", status.packets_rejected},
                        {"lost", status.packets_lost},
-                       {"strangers", status.packets_strangers}};
+                       {"strangers", status.packets_strangers},
+                       {"receive_errors", status.receive_errors}};
   object["sweeps"] = {{"total", status.sweeps},
                       {"missing", status.sweeps_missing},
                       {"skipped", status.sweeps_skipped},

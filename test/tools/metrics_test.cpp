@@ -50,6 +50,8 @@ platform::EngineStatus some_status() {
   status.sigma_along_m = 0.02;
   status.packets = 75'400;
   status.packets_dropped_ring = 3;
+  status.receive_errors = 7;
+  status.odometry.is_speed_believed = true;
   status.sweeps = 1000;
   status.stages[static_cast<std::size_t>(platform::Stage::total)] = platform::summarise(*histogram);
   status.threads = {{"rx", true, 0, 0}, {"solve", true, 1, 0}, {"tx", false, 0, 2}};
@@ -125,9 +127,11 @@ TEST(Metrics, AreWhatPrometheusReads) {
   EXPECT_EQ(fault_of(text), "");
   for (const char* const line :
        {"landfix_packets_total{sensor=\"vlp\\\"16\\\\\"} 75400\n",
-        "landfix_packets_dropped_total{where=\"ring\"} 3\n", "landfix_scans_total 1000\n",
-        "landfix_pose_state{state=\"TRACKING\"} 1\n", "landfix_pose_state{state=\"LOST\"} 0\n",
-        "landfix_pose_sigma_meters{axis=\"along\"} 0.02\n",
+        "landfix_packets_dropped_total{where=\"ring\"} 3\n", "landfix_receive_errors_total 7\n",
+        "landfix_odometry_believed{quantity=\"speed\"} 1\n",
+        "landfix_odometry_believed{quantity=\"yaw_rate\"} 0\n", "landfix_gnss_guesses_total 0\n",
+        "landfix_scans_total 1000\n", "landfix_pose_state{state=\"TRACKING\"} 1\n",
+        "landfix_pose_state{state=\"LOST\"} 0\n", "landfix_pose_sigma_meters{axis=\"along\"} 0.02\n",
         "# TYPE landfix_stage_duration_seconds histogram\n",
         "landfix_stage_duration_seconds_count{stage=\"total\"} 1000\n",
         "landfix_stage_duration_seconds_bucket{stage=\"total\",le=\"+Inf\"} 1000\n",
