@@ -36,11 +36,13 @@ DecodedFrame PoseFrameDecoder::decode(const CanFrame& frame, std::int64_t stamp_
   const auto index = static_cast<std::size_t>(layout - kFrameLayouts.data());
   if (has_format_of(*layout, frame)) result.check = checkers_[index].check(frame.payload());
   if (!is_accepted(result.check.status)) return result;
+  result.out_of_order = is_between(index, result.check.counter, stamp_utc_ns);
   if (take_slower(index, frame, result)) return result;
   if (last_utc_ns_ && stamp_utc_ns - *last_utc_ns_ > kTimeout_ns) {
     result.silence_ns = stamp_utc_ns - *last_utc_ns_;
   }
   last_utc_ns_ = stamp_utc_ns;
+  latitude_counter_.reset();
   if (index == kFdPoseFrameIndex) {
     decode_frame(*layout, frame.payload(), result.pose.emplace(map_));
   } else {
@@ -58,11 +60,20 @@ bool PoseFrameDecoder::take_slower(std::size_t index, const CanFrame& frame, Dec
   } else if (index == kLongitudeFrameIndex) {
     decode_frame(kFrameLayouts[index], frame.payload(), geodetic_);
     if (latitude_counter_ == result.check.counter) result.geodetic = geodetic_;
-    latitude_counter_.reset();
   } else {
     return false;
   }
+  if (index != kLatitudeFrameIndex) latitude_counter_.reset();
   return true;
+}
+
+/// A longitude follows its latitude at once, and what comes less often than poses comes between them.
+bool PoseFrameDecoder::is_between(std::size_t index, std::uint8_t counter,
+                                  std::int64_t stamp_utc_ns) const noexcept {
+  if (index == kLongitudeFrameIndex) return latitude_counter_ != counter;
+  if (latitude_counter_) return true;
+  const bool is_slower = index == kMapFrameIndex || index == kLatitudeFrameIndex;
+  return is_slower && seen_ != 0 && stamp_utc_ns - begun_utc_ns_ <= kLongestPose_ns;
 }
 
 void PoseFrameDecoder::add_to_pose(std::size_t index, const CanFrame& frame, std::int64_t stamp_utc_ns,
@@ -78,7 +89,7 @@ void PoseFrameDecoder::add_to_pose(std::size_t index, const CanFrame& frame, std
     begun_utc_ns_ = stamp_utc_ns;
   }
   counter_ = result.check.counter;
-  result.out_of_order = seen_ >> index != 0;
+  result.out_of_order |= seen_ >> index != 0;
   seen_ |= 1U << index;
   decode_frame(kFrameLayouts[index], frame.payload(), report_);
   report_.weak = report_.weak_axes != 0 ? 1 : 0;

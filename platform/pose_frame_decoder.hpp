@@ -18,7 +18,7 @@ namespace landfix::platform {
 struct DecodedFrame {
   const FrameLayout* layout = nullptr;  ///< nothing: not one of ours
   E2eCheck check{};                     ///< wrong_crc also where its format is not the layout's
-  bool out_of_order = false;            ///< a later frame of its pose was there before it
+  bool out_of_order = false;            ///< a frame that follows it was there before it
   std::size_t frames_missing = 0;       ///< of the pose before, which is given up
   std::int64_t silence_ns = 0;          ///< since the last pose frame, where that is longer than the time-out
   std::optional<PoseReport> pose{};     ///< that this frame completes
@@ -54,6 +54,8 @@ class PoseFrameDecoder {
  private:
   /// What comes less often than poses; false: it is not one of those.
   [[nodiscard]] bool take_slower(std::size_t index, const CanFrame& frame, DecodedFrame& result) noexcept;
+  [[nodiscard]] bool is_between(std::size_t index, std::uint8_t counter,
+                                std::int64_t stamp_utc_ns) const noexcept;
   void add_to_pose(std::size_t index, const CanFrame& frame, std::int64_t stamp_utc_ns,
                    DecodedFrame& result) noexcept;
   [[nodiscard]] bool has(std::size_t index) const noexcept { return (seen_ >> index & 1U) != 0; }

@@ -52,6 +52,13 @@ class Daemon : public testing::Test {
     return LANDFIX_PROGRAM " play --pcap " + path(capture) + " --to 127.0.0.1 --from 127.0.0.9 >" +
            path("play.out");
   }
+  /// Of the last play.
+  [[nodiscard]] static bool was_in_time() {
+    constexpr double kLate_ms = 200.0;
+    const std::string said = test::text_of(path("play.out"));
+    const std::size_t late = said.find("late by ");
+    return late != std::string::npos && std::stod(said.substr(late + 8)) < kLate_ms;
+  }
   /// What `landfix can decode` says of the frames that candump saw.
   [[nodiscard]] static nlohmann::json decoded() {
     test::run(LANDFIX_PROGRAM " can decode " + path("bus.log") + " --json >" + path("decoded.json"));
@@ -75,6 +82,7 @@ TEST_F(Daemon, PublishesOnTheBusAtItsRate) {
   test::run(LANDFIX_PROGRAM " top --once --json >" + path("top.json"));
   sleep_s(0.5);
   daemon_process.stop();
+  if (!was_in_time()) GTEST_SKIP() << "the guest cannot keep pace: " << test::text_of(path("play.out"));
   sleep_s(0.3);
   dump.stop();
   EXPECT_EQ(daemon_process.exit_code(), 0) << test::text_of(path("daemon.out"));
@@ -94,7 +102,8 @@ TEST_F(Daemon, PublishesOnTheBusAtItsRate) {
 
 TEST_F(Daemon, ComesBackWithTheInterface) {
   test::Background daemon_process(daemon());
-  sleep_s(1.0);
+  test::run("candump -n 1 -T 20000 vcan0 >" + path("first.log"));  // however slow the guest is
+  ASSERT_NE(test::text_of(path("first.log")), "") << test::text_of(path("daemon.out"));
   test::run("ip link set vcan0 down");
   sleep_s(0.5);
   test::run("ip link set vcan0 up");
@@ -142,6 +151,7 @@ TEST_F(Daemon, UsesOdometryOfTheBus) {
   test::run("canplayer -I " + path("vehicle.log") + " vcan0=can0");
   test::run(LANDFIX_PROGRAM " top --once --json >" + path("top.json"));
   daemon_process.stop();
+  if (!was_in_time()) GTEST_SKIP() << "the guest cannot keep pace: " << test::text_of(path("play.out"));
   const nlohmann::json odometry = nlohmann::json::parse(test::text_of(path("top.json")))["odometry"];
   EXPECT_GT(odometry["frames"], 2500) << odometry;
   EXPECT_EQ(odometry["speed_believed"], true) << odometry;

@@ -17,8 +17,8 @@ constexpr std::int64_t kStart_ns = 1'700'000'000'000'000'000;
 constexpr std::int64_t kSweep_ns = 100'000'000;
 
 /// The frames of so many poses, as they follow each other on the bus.
-std::vector<CanFrame> drive(std::size_t poses, bool fd) {
-  PoseFrameEncoder encoder(kBaseId, fd);
+std::vector<CanFrame> drive(std::size_t poses, bool fd, bool is_geodetic = false) {
+  PoseFrameEncoder encoder(kBaseId, fd, is_geodetic);
   std::mt19937_64 random(3);
   std::vector<CanFrame> frames;
   for (std::size_t i = 0; i < poses; ++i) {
@@ -150,6 +150,22 @@ TEST(PoseFrameDecoder, SeesEverySwapOfTwoFrames) {
       for (std::size_t j = i + 1; j < frames.size(); ++j) {
         // LOC_MAP goes with no pose, so that there is no order to it.
         if (is_map(frames[i]) || is_map(frames[j])) continue;
+        std::vector<CanFrame> swapped = frames;
+        std::swap(swapped[i], swapped[j]);
+        EXPECT_GE(receive(swapped).faults, 1U) << i << ' ' << j;
+      }
+    }
+  }
+}
+
+TEST(PoseFrameDecoder, SeesEverySwapOfLatitudeLongitudeAndMapToo) {
+  for (const bool fd : {false, true}) {
+    const std::vector<CanFrame> frames = drive(14, fd, true);  // as many as a counter tells apart
+    ASSERT_EQ(receive(frames).faults, 0U);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      for (std::size_t j = i + 1; j < frames.size(); ++j) {
+        // A pose that is one frame, and LOC_MAP, which belongs to none, have no order.
+        if (fd && (is_map(frames[i]) || is_map(frames[j]))) continue;
         std::vector<CanFrame> swapped = frames;
         std::swap(swapped[i], swapped[j]);
         EXPECT_GE(receive(swapped).faults, 1U) << i << ' ' << j;
