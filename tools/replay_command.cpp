@@ -174,7 +174,13 @@ struct Seams {
 
 [[nodiscard]] std::vector<platform::StampedFrame> read_vehicle_bus(const ReplayArguments& arguments,
                                                                    const ReplaySetup& setup) {
-  if (arguments.odometry.empty()) return {};
+  if (arguments.odometry.empty()) {
+    if (setup.settings.initial_pose) return {};
+    throw UsageError(
+        "no initial pose, and no bus on which GNSS could tell it: give --initial-pose, [initial_pose] pose "
+        "in "
+        "the configuration, or --odometry with a log");
+  }
   if (setup.settings.odometry.count + setup.settings.gnss.count == 0) {
     throw UsageError(
         fmt::format("--odometry: [[odometry.signal]] or [[gnss.signal]] in {} must say what the frames mean",
