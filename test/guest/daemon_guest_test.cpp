@@ -23,6 +23,19 @@ using testing::HasSubstr;
 
 void sleep_s(double s) { std::this_thread::sleep_for(std::chrono::duration<double>(s)); }
 
+/// The guest's one CPU, whose system calls are dear, keeps pace with a third of the packets.
+void thin_out(const std::string& from, const std::string& to) {
+  PcapSource source(from);
+  PcapWriter thinned(to);
+  UdpPacket packet;
+  for (std::size_t i = 0; source.next(packet) == ReadStatus::packet; ++i) {
+    if (i % 3 != 0) continue;
+    thinned.write({.source_address = packet.source_address, .destination_port = packet.destination_port},
+                  packet.payload, packet.receive_utc_ns);
+  }
+  thinned.commit();
+}
+
 /// The first seconds of a drive on the circuit, simulated once.
 class Daemon : public testing::Test {
  protected:
@@ -33,6 +46,7 @@ class Daemon : public testing::Test {
               " >" + path("simulate.out"));
     test::run(LANDFIX_PROGRAM " map --pcd " + path("map.pcd") +
               " --resolution 1 --capacity 400000 --output " + path("map.ndt") + " >" + path("map.out"));
+    thin_out(path("capture.pcap"), path("thin.pcap"));
     test::run("sed -i '/^\\[sensor\\]/a address = \"127.0.0.9\"' " + path("config.toml"));
     std::ofstream(path("config.toml"), std::ios::app)
         << "\n[can]\ninterface = \"vcan0\"\nrate_hz = 20.0\n[metrics]\naddress = \"127.0.0.1:9464\"\n";
@@ -48,8 +62,8 @@ class Daemon : public testing::Test {
   [[nodiscard]] static std::string daemon() {
     return LANDFIXD_PROGRAM " --config " + path("config.toml") + " 2>" + path("daemon.out");
   }
-  [[nodiscard]] static std::string play(const std::string& capture = "capture.pcap") {
-    return LANDFIX_PROGRAM " play --pcap " + path(capture) + " --to 127.0.0.1 --from 127.0.0.9 >" +
+  [[nodiscard]] static std::string play() {
+    return LANDFIX_PROGRAM " play --pcap " + path("thin.pcap") + " --to 127.0.0.1 --from 127.0.0.9 >" +
            path("play.out");
   }
   /// Of the last play.
@@ -115,19 +129,6 @@ TEST_F(Daemon, ComesBackWithTheInterface) {
   EXPECT_THAT(test::text_of(path("daemon.out")), HasSubstr("vcan0"));
 }
 
-/// The guest's one CPU, whose system calls are dear, keeps pace with a third of the packets.
-void thin_out(const std::string& from, const std::string& to) {
-  PcapSource source(from);
-  PcapWriter thinned(to);
-  UdpPacket packet;
-  for (std::size_t i = 0; source.next(packet) == ReadStatus::packet; ++i) {
-    if (i % 3 != 0) continue;
-    thinned.write({.source_address = packet.source_address, .destination_port = packet.destination_port},
-                  packet.payload, packet.receive_utc_ns);
-  }
-  thinned.commit();
-}
-
 /// Without its first seconds.
 void cut_begin(const std::string& from, const std::string& to, double seconds) {
   CandumpLog cut(to, "can0");
@@ -142,10 +143,9 @@ void cut_begin(const std::string& from, const std::string& to, double seconds) {
 TEST_F(Daemon, UsesOdometryOfTheBus) {
   // The log begins half a second before the drive; the daemon says that it tracks a quarter of one after.
   cut_begin(path("odometry.log"), path("vehicle.log"), 0.75);
-  thin_out(path("capture.pcap"), path("thin.pcap"));
   test::Background daemon_process(daemon());
   sleep_s(2.0);
-  test::Background sensor(play("thin.pcap"));
+  test::Background sensor(play());
   while (test::text_of(path("daemon.out")).find("-> TRACKING") == std::string::npos && !sensor.has_ended())
     sleep_s(0.01);
   test::Background vehicle("canplayer -I " + path("vehicle.log") + " vcan0=can0");
