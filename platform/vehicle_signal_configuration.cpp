@@ -175,10 +175,9 @@ void read_unit(TomlSection& section, Quantity quantity, std::string otherwise, V
   if (kind.quantity != Quantity::flag) read_unit(section, kind.quantity, unit, signal);
   // In SI units.
   signal.high = kind.limit;
-  section.read("max", signal.high, {-1e9, 1e9});
-  signal.low = -kind.limit;
-  section.read("min", signal.low, {-1e9, 1e9});
-  if (signal.low > signal.high) section.fail("min", "not more than max");
+  section.read("max", signal.high, {0.0, 1e9});
+  signal.low = -signal.high;
+  section.read("min", signal.low, {-1e9, signal.high});
   signal.sign_bit = read_bit(section, "sign_bit");
   signal.valid_bit = read_bit(section, "valid_bit");
   section.read("valid_value", signal.valid_value);
