@@ -8,9 +8,8 @@
 namespace landfix::ndt {
 namespace {
 
-[[nodiscard]] double seconds_between(const StampedPose& before, std::int64_t stamp_utc_ns) noexcept {
-  return static_cast<double>(stamp_utc_ns - before.stamp_utc_ns) * 1e-9;
-}
+/// By which a sweep's own velocity may be wrong: at 10 Hz, half a turn long, it displaces it by 0.1 m.
+constexpr double kDistorts_mps = 2.0;
 
 [[nodiscard]] std::optional<double> sigma_of(const std::optional<MeasuredMotion>& measured) noexcept {
   return measured ? measured->sigma_mps : std::nullopt;
@@ -23,40 +22,30 @@ std::string_view to_string(State state) noexcept {
   return number < kStateNames.size() ? kStateNames[number] : "UNKNOWN";
 }
 
-std::string_view to_string(Fit fit) noexcept {
-  switch (fit) {
-    case Fit::none:
-      return "none";
-    case Fit::weak:
-      return "weak";
-    case Fit::good:
-      return "good";
-  }
-  return "unknown";
-}
-
-Fit judge(const MatchResult& match, const FitGates& gates) noexcept {
-  const double likelihood = match.nearest_voxel_likelihood / match.best_likelihood;
-  if (!match.converged || !(likelihood >= gates.believed_likelihood)) return Fit::none;
-  const double matched_share = static_cast<double>(match.points_matched) / static_cast<double>(match.points);
-  return likelihood >= gates.good_likelihood && matched_share >= gates.good_matched_share ? Fit::good
-                                                                                          : Fit::weak;
-}
-
 Fix Localizer::localize(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns,
-                        const std::optional<MeasuredMotion>& measured, const Deadline& deadline) noexcept {
+                        const std::optional<MeasuredMotion>& measured, const Deadline& deadline,
+                        const std::optional<Velocity>& undistorted_with) noexcept {
   begin_time(stamp_utc_ns);
-  reckoning_.pass(seconds_between(last_, stamp_utc_ns), sigma_of(measured));
+  reckoning_.pass(seconds_between(last_.stamp_utc_ns, stamp_utc_ns), sigma_of(measured));
   Fix fix{.at = {stamp_utc_ns, predicted_pose(stamp_utc_ns, measured)}};
-  if (state_ == State::lost || !has_pose_) {
-    recover(fix, recovery_.look(matcher_, map_, points_m, fix.at, guess_, deadline));
+  const Velocity before = velocity();
+  const bool elsewhere = is_elsewhere(fix.at);
+  if (elsewhere && is_usable(state_)) state_ = State::lost;
+  if (state_ == State::lost || !has_pose_ || elsewhere) {
+    recover(fix, look_around(points_m, fix.at, undistorted_with.value_or(velocity()), deadline));
   } else {
     fix.match = matcher_.match(map_, points_m, fix.at.pose, reckoning_.sigma_m(), deadline);
     fix.state = next_state(fix);
     if (fix.state == State::init && guess_) has_pose_ = false;  // it is not there
   }
+  found_.reset();
   if (fix.state >= State::degraded) {
+    const bool is_first = state_ == State::init;
     take_match(fix);
+    // What it was undistorted with is a guess before there are two, and may then be found wrong.
+    const double wrong_mps = (velocity_ - undistorted_with.value_or(before)).head<3>().norm();
+    const bool is_distorted = !measured && (is_first || wrong_mps > kDistorts_mps);
+    if (is_distorted && fix.state == State::tracking) fix.state = State::degraded;
   } else if (fix.state == State::predicted) {
     fix.covariance = predicted_covariance(reckoning_, fix.at.pose);
   } else if (fix.state == State::lost && !measured) {
@@ -65,6 +54,7 @@ Fix Localizer::localize(std::span<const Eigen::Vector3f> points_m, std::int64_t 
     stand_still(last_.pose);
   }
   fix.velocity = measured ? measured->velocity : velocity_;
+  count_doubt(fix);
   last_ = fix.at;
   last_sweep_utc_ns_ = stamp_utc_ns;
   state_ = fix.state;
@@ -76,7 +66,7 @@ Fix Localizer::predict_missing(std::int64_t stamp_utc_ns,
   Fix fix{.at = {stamp_utc_ns, last_.pose}, .state = state_without_match(stamp_utc_ns)};
   if (fix.state != State::predicted) return fix;
   DeadReckoning reckoning = reckoning_;
-  reckoning.pass(seconds_between(last_, stamp_utc_ns), sigma_of(measured));
+  reckoning.pass(seconds_between(last_.stamp_utc_ns, stamp_utc_ns), sigma_of(measured));
   fix.at.pose = predicted_pose(stamp_utc_ns, measured);
   fix.velocity = measured ? measured->velocity : velocity_;
   fix.covariance = predicted_covariance(reckoning, fix.at.pose);
@@ -86,7 +76,7 @@ Fix Localizer::predict_missing(std::int64_t stamp_utc_ns,
 Fix Localizer::wait_for_data(std::int64_t stamp_utc_ns,
                              const std::optional<MeasuredMotion>& measured) noexcept {
   if (measured) {
-    reckoning_.pass(seconds_between(last_, stamp_utc_ns), sigma_of(measured));
+    reckoning_.pass(seconds_between(last_.stamp_utc_ns, stamp_utc_ns), sigma_of(measured));
     last_ = {stamp_utc_ns, predicted_pose(stamp_utc_ns, measured)};
     velocity_ = measured->velocity;
   } else {
@@ -141,8 +131,9 @@ State Localizer::next_state(const Fix& fix) const noexcept {
                            share * settings_.innovation_limit_m &&
                        angle_between(fix.match.pose, prediction) < share * settings_.innovation_limit_rad;
   // A match that follows the prediction in weak directions is worth no more than that.
-  const bool is_anchored = fix.match.weak.count == 0 ||
-                           seconds_between(last_matched_, fix.at.stamp_utc_ns) <= settings_.lost_after_s;
+  const bool is_anchored =
+      fix.match.weak.count == 0 ||
+      seconds_between(last_matched_.stamp_utc_ns, fix.at.stamp_utc_ns) <= settings_.lost_after_s;
   const Fit fit = judge(fix.match, settings_.gates);
   const bool is_believed = state_ == State::init ? agrees_with_guess(fix.match.pose) : is_near && is_anchored;
   if (fit != Fit::none && is_believed) {
@@ -159,7 +150,7 @@ bool Localizer::agrees_with_guess(const Pose& pose) const noexcept {
 
 State Localizer::state_without_match(std::int64_t stamp_utc_ns) const noexcept {
   if (state_ == State::init || state_ == State::lost) return state_;
-  const double unmatched_s = seconds_between(last_matched_, stamp_utc_ns);
+  const double unmatched_s = seconds_between(last_matched_.stamp_utc_ns, stamp_utc_ns);
   return unmatched_s > settings_.lost_after_s ? State::lost : State::predicted;
 }
 
@@ -175,7 +166,8 @@ void Localizer::take_match(Fix& fix) noexcept {
   // How long it was since a match before the clock was set is not known.
   const bool clock_was_set = std::exchange(clock_was_set_, false);
   const bool is_baseline =
-      !clock_was_set && seconds_between(last_matched_, fix.at.stamp_utc_ns) >= settings_.shortest_baseline_s;
+      !clock_was_set &&
+      seconds_between(last_matched_.stamp_utc_ns, fix.at.stamp_utc_ns) >= settings_.shortest_baseline_s;
   if (fix.match.weak.count == 0) {
     reckoning_.hold(state_ != State::init && is_baseline);
     if (state_ >= State::degraded) distortion_.observe(pose_log(prediction.inverse() * fix.at.pose));
@@ -183,6 +175,36 @@ void Localizer::take_match(Fix& fix) noexcept {
   if (state_ != State::init && is_baseline) velocity_ = steady_part(velocity_between(last_matched_, fix.at));
   if (state_ == State::init || is_baseline || clock_was_set) last_matched_ = fix.at;
   recovery_.remember(fix.at, velocity_, fix.match);
+}
+
+/// Who has searched the whole map knows of all that looks like the place. An answer that is not of the sweep
+/// before, as after a leap of the clock, is none.
+bool Localizer::is_elsewhere(const StampedPose& prediction) const noexcept {
+  constexpr double kElsewhere_m = 1.0;
+  constexpr double kElsewhere_rad = 0.1;
+  constexpr double kOldest_s = 0.5;
+  if (!found_) return false;
+  const double age_s = seconds_between(found_->at.stamp_utc_ns, prediction.stamp_utc_ns);
+  if (age_s <= 0.0 || age_s > kOldest_s) return false;
+  const Pose there = predict(found_->at, found_->velocity, prediction.stamp_utc_ns);
+  return (there.translation() - prediction.pose.translation()).norm() > kElsewhere_m ||
+         angle_between(there, prediction.pose) > kElsewhere_rad;
+}
+
+Sighting Localizer::look_around(std::span<const Eigen::Vector3f> points_m, const StampedPose& prediction,
+                                const Velocity& undistorted_with, const Deadline& deadline) noexcept {
+  if (found_) {
+    Sighting there = recovery_.check(matcher_, map_, points_m, prediction.stamp_utc_ns, *found_,
+                                     undistorted_with, deadline);
+    if (there.confirmed) return there;
+  }
+  return recovery_.look(matcher_, map_, points_m, prediction, undistorted_with, guess_, deadline);
+}
+
+/// A good match that was not believed says nothing.
+void Localizer::count_doubt(const Fix& fix) noexcept {
+  const bool is_good = fix.state >= State::degraded && judge(fix.match, settings_.gates) == Fit::good;
+  unsure_s_ = is_good ? 0.0 : unsure_s_ + seconds_between(last_sweep_utc_ns_, fix.at.stamp_utc_ns);
 }
 
 /// What was confirmed goes on from the sweep before, not from where the vehicle was lost.

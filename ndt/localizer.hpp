@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -11,6 +12,8 @@
 
 #include "ndt/dead_reckoning.hpp"
 #include "ndt/deadline.hpp"
+#include "ndt/fit.hpp"
+#include "ndt/found.hpp"
 #include "ndt/matcher.hpp"
 #include "ndt/measured_motion.hpp"
 #include "ndt/motion.hpp"
@@ -36,24 +39,6 @@ inline constexpr std::array<std::string_view, 6> kStateNames{"INIT",      "NO_DA
 /// Whether a pose of this state is one: PREDICTED, DEGRADED, TRACKING.
 [[nodiscard]] constexpr bool is_usable(State state) noexcept { return state >= State::predicted; }
 
-/// When a match is believed. Likelihoods are shares of the best score that a point can have
-/// (ScoreConstants::d1), so that they hold at any resolution: the usual gate of the nearest voxel
-/// likelihood, 2.3 at 2 m, is 0.55.
-struct FitGates {
-  double believed_likelihood = 0.3;
-  double good_likelihood = 0.55;
-  double good_matched_share = 0.5;  ///< of the points, those with a voxel near
-};
-
-/// How well the map explains a scan at the pose that was found.
-enum class Fit : std::uint8_t {
-  none,  ///< the pose is not to be believed
-  weak,
-  good,
-};
-[[nodiscard]] std::string_view to_string(Fit fit) noexcept;
-[[nodiscard]] Fit judge(const MatchResult& match, const FitGates& gates) noexcept;
-
 struct LocalizerSettings {
   MatcherSettings matcher;
   FitGates gates;
@@ -65,7 +50,8 @@ struct LocalizerSettings {
   /// twice or out of order at the cut leaves a splinter of a sweep, whose few points may match anywhere.
   double innovation_full_after_s = 0.05;
   double innovation_least_share = 0.07;
-  double lost_after_s = 1.0;  ///< of prediction
+  double lost_after_s = 1.0;   ///< of prediction
+  double doubt_after_s = 0.3;  ///< without a good match
   /// Over a shorter time the difference of two poses is more noise than velocity.
   double shortest_baseline_s = 0.05;
 };
@@ -84,7 +70,7 @@ struct Fix {
 class Localizer {
  public:
   /// The memory that `map` views must outlive it. `initial_pose`: map <- vehicle at the first sweep; nothing:
-  /// it is looked for as soon as there is a guess.
+  /// it is looked for where a guess says, or found by who searches the map.
   Localizer(const VoxelMap& map, const LocalizerSettings& settings, const std::optional<Pose>& initial_pose);
 
   /// Another map of the same lattice, from the next sweep on.
@@ -99,8 +85,17 @@ class Localizer {
   /// Where the vehicle is said to be as the next sweep ends: there it is looked for, if it is, and while
   /// LOST.
   void expect_near(const std::optional<PoseGuess>& guess) noexcept { guess_ = guess; }
+  /// Where it was found, as of the sweep before, by who searches the whole map; nothing: it was not.
+  void expect_found(const std::optional<Found>& found) noexcept { found_ = found; }
   /// Whether a guess would be of use.
   [[nodiscard]] bool is_searching() const noexcept { return state_ == State::lost || state_ == State::init; }
+
+  /// Whether it would be of use to search the whole map: it is LOST, not found yet, or has had no good match
+  /// for so long, or none at all, that it may be elsewhere.
+  [[nodiscard]] bool wants_search() const noexcept {
+    return is_searching() || unsure_s_ > settings_.doubt_after_s;
+  }
+  [[nodiscard]] bool has_been_found() const noexcept { return state_ != State::init; }
 
   /// The last published pose.
   [[nodiscard]] const Pose& pose() const noexcept { return last_.pose; }
@@ -114,10 +109,11 @@ class Localizer {
   /// `points_m`: deskewed and filtered, frame `vehicle` at `stamp_utc_ns`, the end of the sweep. Where
   /// stamps do not rise the prediction stands still. `measured`: the motion since `last_stamp_utc_ns`, by
   /// another sensor; else it goes on as it was. `deadline`: of the match; one that it cuts short is not
-  /// believed.
+  /// believed. `undistorted_with`: the velocity by which the points were deskewed; nothing: velocity().
   [[nodiscard]] Fix localize(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns,
                              const std::optional<MeasuredMotion>& measured = std::nullopt,
-                             const Deadline& deadline = {}) noexcept;
+                             const Deadline& deadline = {},
+                             const std::optional<Velocity>& undistorted_with = std::nullopt) noexcept;
 
   /// What may be said of a sweep that has not come: PREDICTED, LOST or still INIT. Nothing that is known
   /// changes by it: the sweep may only be late.
@@ -138,6 +134,10 @@ class Localizer {
   [[nodiscard]] Matrix6 predicted_covariance(const DeadReckoning& reckoning, const Pose& pose) const noexcept;
   [[nodiscard]] bool agrees_with_guess(const Pose& pose) const noexcept;
   void take_match(Fix& fix) noexcept;
+  [[nodiscard]] bool is_elsewhere(const StampedPose& prediction) const noexcept;
+  [[nodiscard]] Sighting look_around(std::span<const Eigen::Vector3f> points_m, const StampedPose& prediction,
+                                     const Velocity& undistorted_with, const Deadline& deadline) noexcept;
+  void count_doubt(const Fix& fix) noexcept;
   void recover(Fix& fix, const Sighting& sighting) noexcept;
   void stand_still(const Pose& pose) noexcept;
 
@@ -152,11 +152,13 @@ class Localizer {
   SweepDistortion distortion_;
   Recovery recovery_;
   std::optional<PoseGuess> guess_;
+  std::optional<Found> found_;
   bool has_pose_;                              ///< to match the first sweep at, or it has been matched
   Matrix6 last_covariance_ = Matrix6::Zero();  ///< by a match
   State state_ = State::init;
-  std::int64_t period_ns_ = 100'000'000;  ///< of the sweeps
-  bool clock_was_set_ = false;            ///< since the last match
+  double unsure_s_ = std::numeric_limits<double>::infinity();  ///< since a match was good
+  std::int64_t period_ns_ = 100'000'000;                       ///< of the sweeps
+  bool clock_was_set_ = false;                                 ///< since the last match
   bool any_sweep_ = false;
 };
 

@@ -7,8 +7,7 @@ Localizer::Localizer(const VoxelMap& map, const LocalizerSettings& settings,
     : map_(map),
       settings_(settings),
       matcher_(settings.matcher),
-      recovery_({.good_likelihood = settings.gates.good_likelihood,
-                 .good_matched_share = settings.gates.good_matched_share}),
+      recovery_({.gates = settings.gates}),
       has_pose_(initial_pose.has_value()) {
   last_.pose = initial_pose.value_or(Pose::Identity());
 }

@@ -9,6 +9,7 @@
 #include "ndt/newton_search.hpp"
 #include "ndt/objective.hpp"
 #include "ndt/scan_information.hpp"
+#include "ndt/score.hpp"
 
 namespace landfix::ndt {
 namespace {
@@ -65,6 +66,12 @@ struct Ending {
   ScanInformation sharp;
   PointScores wide_scores;
 };
+
+[[nodiscard]] std::size_t count_standing(std::span<const Eigen::Vector3f> points_m) noexcept {
+  return static_cast<std::size_t>(std::ranges::count_if(points_m, [](const Eigen::Vector3f& point_m) {
+    return point_m.z() > static_cast<float>(kAboveGround_m);
+  }));
+}
 
 [[nodiscard]] Ending look_around(const VoxelMap& map, PairGroups& groups, const Estimate& estimate,
                                  const ScoreConstants& constants) noexcept {
@@ -127,6 +134,7 @@ MatchResult Matcher::match(const VoxelMap& map, std::span<const Eigen::Vector3f>
     result.transformation_probability = result.score / static_cast<double>(points_m.size());
   result.points_matched = scores.all.points;
   result.nearest_voxel_likelihood = scores.all.mean();
+  result.no_ground_points = count_standing(points_m);
   result.no_ground_points_matched = scores.no_ground.points;
   result.no_ground_nearest_voxel_likelihood = scores.no_ground.mean();
   return result;

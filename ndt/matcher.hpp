@@ -40,12 +40,27 @@ struct MatchResult {
   double best_likelihood = 1.0;                     ///< the best score that a point can have with one voxel
   std::size_t points = 0;
   std::size_t points_matched = 0;            ///< with a voxel near
-  std::size_t no_ground_points_matched = 0;  ///< of these, above the ground
+  std::size_t no_ground_points = 0;          ///< above the ground
+  std::size_t no_ground_points_matched = 0;  ///< of these, with a voxel near
   std::size_t pairs_dropped = 0;  ///< candidates that found no room in their group, over the whole search
   int iterations = 0;             ///< evaluations of the objective
   bool converged = false;
   bool sharpened = false;
   bool out_of_time = false;  ///< the deadline came first: not converged
+
+  /// Of the points that have a voxel, how well they fit, in [0, 1].
+  [[nodiscard]] double likelihood() const noexcept { return nearest_voxel_likelihood / best_likelihood; }
+  [[nodiscard]] double matched_share() const noexcept {
+    return points == 0 ? 0.0 : static_cast<double>(points_matched) / static_cast<double>(points);
+  }
+  /// How much of the scan the map explains, and how well: at a wrong place it is both less.
+  [[nodiscard]] double explained() const noexcept { return likelihood() * matched_share(); }
+  /// The same of what stands in the scan: the ground explains itself anywhere.
+  [[nodiscard]] double standing_explained() const noexcept {
+    if (no_ground_points == 0) return 0.0;
+    return no_ground_nearest_voxel_likelihood / best_likelihood *
+           static_cast<double>(no_ground_points_matched) / static_cast<double>(no_ground_points);
+  }
 };
 
 /// Each step that is not negligible is tried before it is taken and must not lower the score: the search

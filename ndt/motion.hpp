@@ -50,6 +50,7 @@ class Deskew {
   }
 
   [[nodiscard]] std::int64_t start_utc_ns() const noexcept { return start_utc_ns_; }
+  [[nodiscard]] const Velocity& velocity() const noexcept { return velocity_; }
   /// vehicle at that time <- vehicle at the start.
   [[nodiscard]] Pose from_start(std::int64_t stamp_utc_ns) const noexcept;
 

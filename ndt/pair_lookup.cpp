@@ -1,8 +1,28 @@
 #include "ndt/pair_lookup.hpp"
 
+#include <array>
 #include <bit>
 
 #include "ndt/simd_targets.hpp"
+
+#ifndef LANDFIX_LANES_IN_FRONT
+#define LANDFIX_LANES_IN_FRONT
+namespace landfix::ndt {
+
+/// For a mask of 8 lanes the numbers of those that are set, in order, and then nothing.
+inline constexpr auto kLanesInFront = [] {
+  std::array<std::array<std::uint8_t, 8>, 256> table{};
+  for (std::size_t mask = 0; mask < table.size(); ++mask) {
+    std::size_t count = 0;
+    for (std::uint8_t lane = 0; lane < 8; ++lane) {
+      if ((mask >> lane & 1U) != 0) table[mask][count++] = lane;
+    }
+  }
+  return table;
+}();
+
+}  // namespace landfix::ndt
+#endif
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ndt/pair_lookup.cpp"
@@ -49,6 +69,51 @@ struct Seeker {
   V radius_m2;
 };
 
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_SCALAR
+/// Brings the lanes of a mask to the front.
+template <class Mask>
+struct ToFront {
+  HWY_INLINE explicit ToFront(Mask is_near) : wanted(is_near) {}
+  template <class D, class Values>
+  HWY_INLINE Values operator()(D d, Values values) const {
+    return hn::Compress(values, hn::RebindMask(d, wanted));
+  }
+  Mask wanted;
+};
+#else
+/// Brings the lanes of a mask to the front. Highway 1.0's own way copies its table to the stack each time
+/// where the processor has no instruction for it: a match took six times as long.
+template <class Mask>
+struct ToFront {
+  HWY_INLINE explicit ToFront(Mask is_near) {
+    std::array<std::uint8_t, 8> bits{};
+    hn::StoreMaskBits(Floats(), is_near, bits.data());
+    const hn::RebindToSigned<Floats> di;
+    const hn::Rebind<std::uint8_t, decltype(di)> dbytes;
+    constexpr auto kLanesMask = static_cast<std::int32_t>(HWY_MAX_BYTES / sizeof(float) - 1);
+    order =
+        hn::And(hn::PromoteTo(di, hn::LoadU(dbytes, kLanesInFront[bits[0]].data())), hn::Set(di, kLanesMask));
+  }
+  template <class D, class Values>
+  HWY_INLINE Values operator()(D d, Values values) const {
+    return hn::TableLookupLanes(values, hn::IndicesFromVec(d, hn::BitCast(hn::RebindToSigned<D>(), order)));
+  }
+  hn::Vec<hn::RebindToSigned<Floats> > order;
+};
+#endif
+
+/// Writes the first `count` lanes.
+template <class D, class Values>
+HWY_INLINE void put(D d, Values values, std::size_t count, hn::TFromD<D>* to) {
+  // Whole vectors that are not aligned reach over two lines each, so half of one where that will do.
+  const hn::Half<D> half;
+  if (count <= hn::Lanes(half)) {
+    hn::StoreU(hn::LowerHalf(half, values), half, to);
+  } else {
+    hn::StoreU(values, d, to);
+  }
+}
+
 /// Appends the means of a block's voxels that are near the point. `corner_m`: the block's, from the group's
 /// origin.
 HWY_INLINE void seek_in_block(const Seeker& seeker, const BlockEntry& block,
@@ -72,21 +137,12 @@ HWY_INLINE void seek_in_block(const Seeker& seeker, const BlockEntry& block,
       found.dropped += near;
       continue;
     }
-    // Compressed in a register first: some processors compress into memory by microcode.
-    const auto put = [n, near](const auto& tag, const auto& values, auto& column) HWY_ATTR {
-      // Whole vectors that are not aligned reach over two lines each, so half of one where that will do.
-      const hn::Half<std::decay_t<decltype(tag)>> half;
-      if (near <= hn::Lanes(half)) {
-        hn::StoreU(hn::LowerHalf(half, values), half, column.data() + n);
-      } else {
-        hn::StoreU(values, tag, column.data() + n);
-      }
-    };
-    put(d, hn::Compress(x, is_near), columns.mean_m[0]);
-    put(d, hn::Compress(y, is_near), columns.mean_m[1]);
-    put(d, hn::Compress(z, is_near), columns.mean_m[2]);
     const auto index = hn::Add(hn::Load(du, kCount.data()), hn::Set(du, static_cast<std::uint32_t>(first)));
-    put(du, hn::Compress(index, hn::RebindMask(du, is_near)), columns.voxel);
+    const ToFront<decltype(is_near)> to_front(is_near);
+    put(d, to_front(d, x), near, columns.mean_m[0].data() + n);
+    put(d, to_front(d, y), near, columns.mean_m[1].data() + n);
+    put(d, to_front(d, z), near, columns.mean_m[2].data() + n);
+    put(du, to_front(du, index), near, columns.voxel.data() + n);
     found.pairs += near;
   }
 }

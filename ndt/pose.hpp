@@ -23,6 +23,10 @@ struct StampedPose {
   Pose pose = Pose::Identity();
 };
 
+[[nodiscard]] constexpr double seconds_between(std::int64_t from_ns, std::int64_t to_ns) noexcept {
+  return static_cast<double>(to_ns - from_ns) * 1e-9;
+}
+
 /// R = Rz(yaw) Ry(pitch) Rx(roll); positive pitch is nose down (ISO 8855).
 struct RollPitchYaw {
   double roll_rad = 0.0;

@@ -13,6 +13,9 @@ struct PoseGuess {
   std::optional<double> height_m{};  ///< tells one level of the ground from another
   std::optional<double> yaw_rad{};   ///< nothing: any
   double within_m = 3.0;             ///< the vehicle is no farther away than this
+
+  static constexpr double kHeightWithin_m = 3.0;  ///< one level of a road is farther from the next
+  static constexpr double kYawWithin_rad = 0.1;
 };
 
 }  // namespace landfix::ndt

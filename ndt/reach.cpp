@@ -90,6 +90,34 @@ std::optional<double> ground_m(const VoxelMap& map, const Eigen::Vector3d& place
   return std::nullopt;
 }
 
+std::size_t find_floors(const VoxelMap& map, const Eigen::Vector2d& place_m, double lowest_m,
+                        std::span<double> heights_m) noexcept {
+  constexpr double kHighest_m = 30.0;
+  constexpr double kRoom_m = 2.0;
+  const double resolution_m = map.resolution_m();
+  Eigen::Vector3d cells;
+  cells << place_m, lowest_m;
+  cells /= resolution_m;
+  if (!has_cell(cells)) return 0;
+  const Cell lowest = cell_of(cells);
+  const auto room = static_cast<std::int32_t>(std::ceil(kRoom_m / resolution_m));
+  const auto highest = lowest.k + static_cast<std::int32_t>(kHighest_m / resolution_m);
+  std::size_t count = 0;
+  std::int32_t free = room;
+  // Downwards, so that the room over each is known.
+  for (std::int32_t k = highest; k >= lowest.k; --k) {
+    const Voxel* const voxel = voxel_of(map, {lowest.i, lowest.j, k});
+    if (voxel != nullptr && free >= room) {
+      // The lowest stay: each pushes the others up.
+      std::shift_right(heights_m.begin(), heights_m.end(), 1);
+      heights_m.front() = k * resolution_m + static_cast<double>(voxel->mean_m[2]);
+      count = std::min(count + 1, heights_m.size());
+    }
+    free = voxel != nullptr ? 0 : free + 1;
+  }
+  return count;
+}
+
 std::optional<double> lowest_m(const VoxelMap& map, const Eigen::Vector2d& place_m,
                                double within_m) noexcept {
   const double half_block_m = 2.0 * map.resolution_m();

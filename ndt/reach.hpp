@@ -43,6 +43,10 @@ class GuessSequence {
 /// The height of the voxel above or below a place that is nearest to it, within `within_m`.
 [[nodiscard]] std::optional<double> ground_m(const VoxelMap& map, const Eigen::Vector3d& place_m,
                                              double within_m) noexcept;
+/// Heights on which a vehicle may stand at a place, lowest first, at most as many as there is room for: of
+/// voxels between `lowest_m` and 30 m above that have 2 m of room over them. How many there are.
+[[nodiscard]] std::size_t find_floors(const VoxelMap& map, const Eigen::Vector2d& place_m, double lowest_m,
+                                      std::span<double> heights_m) noexcept;
 /// The height of the lowest voxel of the blocks within `within_m` of a place, horizontally. Looks at all of
 /// them.
 [[nodiscard]] std::optional<double> lowest_m(const VoxelMap& map, const Eigen::Vector2d& place_m,

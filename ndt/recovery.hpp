@@ -12,19 +12,21 @@
 #include <Eigen/Core>
 
 #include "ndt/deadline.hpp"
+#include "ndt/fit.hpp"
+#include "ndt/found.hpp"
 #include "ndt/matcher.hpp"
 #include "ndt/motion.hpp"
 #include "ndt/pose.hpp"
 #include "ndt/pose_guess.hpp"
 #include "ndt/reach.hpp"
+#include "ndt/track.hpp"
 #include "ndt/voxel_map.hpp"
 
 namespace landfix::ndt {
 
 struct RecoverySettings {
   std::size_t guesses = 2000;  ///< looked at a sweep, by which cells are occupied; about 2 us each
-  double good_likelihood = 0.55;
-  double good_matched_share = 0.5;
+  FitGates gates;
   /// To be believed, of what matches explained before: a wrong place has half of it.
   double usual_share = 0.85;
   double least_explained = 0.45;  ///< where there was none before
@@ -41,30 +43,34 @@ struct Sighting {
 /// Neither allocates nor depends on anything but its calls.
 class Recovery {
  public:
-  explicit Recovery(const RecoverySettings& settings) noexcept : settings_(settings) {}
+  explicit Recovery(const RecoverySettings& settings) noexcept
+      : settings_(settings), track_(settings.gates) {}
 
   /// A match was believed.
   void remember(const StampedPose& at, const Velocity& velocity, const MatchResult& match) noexcept;
 
   /// One sweep while LOST. `prediction`: where the vehicle is, if it stands or another sensor has measured
-  /// its motion; `guess`: where it is said to be. Before it has ever been seen the guess alone counts.
-  /// Neither the search nor a match goes on after the deadline.
+  /// its motion; `undistorted_with`: by which the points were deskewed; `guess`: where it is said to be.
+  /// Before it has ever been seen the guess alone counts. Neither the search nor a match goes on after the
+  /// deadline.
   [[nodiscard]] Sighting look(Matcher& matcher, const VoxelMap& map,
                               std::span<const Eigen::Vector3f> points_m, const StampedPose& prediction,
-                              const std::optional<PoseGuess>& guess, const Deadline& deadline) noexcept;
+                              const Velocity& undistorted_with, const std::optional<PoseGuess>& guess,
+                              const Deadline& deadline) noexcept;
+
+  /// One sweep, where the whole map was searched and the vehicle found up to the sweep before. If it was
+  /// undistorted with another velocity than was found, that is for the next.
+  [[nodiscard]] Sighting check(Matcher& matcher, const VoxelMap& map,
+                               std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns,
+                               const Found& found, const Velocity& undistorted_with,
+                               const Deadline& deadline) noexcept;
 
   /// The best guess at the velocity, to undo the next sweep's distortion with.
-  [[nodiscard]] const Velocity& velocity() const noexcept { return velocity_; }
+  [[nodiscard]] const Velocity& velocity() const noexcept {
+    return track_.exists() ? track_.velocity() : last_velocity_;
+  }
 
  private:
-  /// What has been seen and may be it.
-  struct Track {
-    StampedPose at;
-    double explained = 0.0;
-    int sweeps = 0;  ///< 0: there is none
-    int agreeing = 0;
-    Velocity undistorted_with = Velocity::Zero();  ///< its first sweep
-  };
   static constexpr std::size_t kMatches = 4;  ///< of the best guesses
   struct Ranked {
     std::array<RankedGuess, kMatches> best{};
@@ -73,11 +79,7 @@ class Recovery {
   };
 
   void pass_time(std::int64_t stamp_utc_ns) noexcept;
-  void drop_track() noexcept;
   [[nodiscard]] double least_explained() const noexcept;
-  [[nodiscard]] bool is_good(const MatchResult& match) const noexcept;
-  void undo_wrong_distortion(StampedPose& second) noexcept;
-  [[nodiscard]] bool follow(const MatchResult& match, const StampedPose& expected) noexcept;
   /// What lies around a pose on the ground is ranked; `next_way` leads from it to the next guess.
   template <class NextWay>
   void search(const VoxelMap& map, const Landmarks& landmarks, const Pose& from, std::size_t guesses,
@@ -92,8 +94,6 @@ class Recovery {
   Pose last_seen_ = Pose::Identity();
   Velocity last_velocity_ = Velocity::Zero();
   double usual_explained_ = 0.0;  ///< of all points, as well as can be
-  Velocity velocity_ = Velocity::Zero();
-  Velocity undistorted_with_ = Velocity::Zero();  ///< the newest sweep
   std::int64_t last_stamp_utc_ns_ = 0;
   double passed_s_ = 0.0;   ///< since it was last seen
   double counted_s_ = 0.0;  ///< of these, with sweeps that came

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -21,8 +22,11 @@ constexpr std::size_t kFirstTableSize = 1024;
 
 }  // namespace
 
-VoxelMapBuilder::VoxelMapBuilder(double resolution_m, std::size_t capacity)
-    : resolution_m_(resolution_m), inverse_resolution_1pm_(1.0 / resolution_m), capacity_(capacity) {
+VoxelMapBuilder::VoxelMapBuilder(double resolution_m, std::size_t capacity, PointSource source)
+    : resolution_m_(resolution_m),
+      inverse_resolution_1pm_(1.0 / resolution_m),
+      capacity_(capacity),
+      source_(source) {
   if (!is_resolution(resolution_m)) {
     throw std::runtime_error(fmt::format("resolution {} m is not one of 0.001 m to 1000 m", resolution_m));
   }
@@ -87,6 +91,24 @@ void VoxelMapBuilder::add(const Eigen::Vector3d& point_m) {
                         point_m.z() - (cell.k + 0.5) * resolution_m_);
 }
 
+void VoxelMapBuilder::forget_beyond(const Eigen::Vector3d& place_m, double within_m) {
+  VoxelMapBuilder kept(resolution_m_, capacity_, source_);
+  kept.skipped_points_ = skipped_points_;
+  for (const Block& block : blocks_) {
+    const Cell corner = block_corner(block.key);
+    const Eigen::Vector2d middle_m = resolution_m_ * Eigen::Vector2d(corner.i + 2, corner.j + 2);
+    if ((middle_m - place_m.head<2>()).norm() > within_m) continue;
+    Block& copy = kept.find_or_add(block.key);
+    for (std::size_t bit = 0; bit < block.cells.size(); ++bit) {
+      if (block.cells[bit] == 0) continue;
+      const VoxelMoments& cell = kept.cells_.emplace_back(cells_[block.cells[bit] - 1]);
+      copy.cells[bit] = static_cast<std::uint32_t>(kept.cells_.size());
+      kept.points_ += cell.count;
+    }
+  }
+  *this = std::move(kept);
+}
+
 std::vector<VoxelMapBuilder::PlacedBlock> VoxelMapBuilder::blocks_in_order() const {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
   order.reserve(blocks_.size());
@@ -123,9 +145,27 @@ MapImage VoxelMapBuilder::build() const {
         "or a denser cloud",
         resolution_m_, kMinVoxelPoints, points_, cells_.size()));
   }
+  std::size_t known = placed.size();
+  VoxelMoments around;
   return make_map(resolution_m_, points_, blocks, [&](std::size_t block, unsigned bit) {
-    return to_voxel(cells_[blocks_[placed[block].index].cells[bit] - 1], resolution_m_);
+    const Block& cells = blocks_[placed[block].index];
+    const VoxelMoments& moments = cells_[cells.cells[bit] - 1];
+    if (source_ == PointSource::survey) return to_voxel(moments, resolution_m_);
+    if (std::exchange(known, block) != block) around = moments_of(cells);
+    return to_voxel(moments, resolution_m_, &around);
   });
+}
+
+/// About the centre of its lowest cell.
+VoxelMoments VoxelMapBuilder::moments_of(const Block& block) const {
+  VoxelMoments sum;
+  for (unsigned bit = 0; bit < block.cells.size(); ++bit) {
+    if (block.cells[bit] == 0) continue;
+    const Cell cell = cell_in_block(bit);
+    sum.add(cells_[block.cells[bit] - 1],
+            {cell.i * resolution_m_, cell.j * resolution_m_, cell.k * resolution_m_});
+  }
+  return sum;
 }
 
 }  // namespace landfix::ndt

@@ -19,11 +19,14 @@ class VoxelMapBuilder {
  public:
   /// `resolution_m`: edge of a voxel, see is_resolution. `capacity`: cells that points may fall in; no point
   /// after the last of them is taken. Throws std::runtime_error where the memory cannot be had.
-  VoxelMapBuilder(double resolution_m, std::size_t capacity);
+  VoxelMapBuilder(double resolution_m, std::size_t capacity, PointSource source = PointSource::survey);
 
   /// Throws std::runtime_error where a point opens a cell beyond the capacity. A point that is not finite or
   /// beyond the lattice is skipped and counted.
   void add(const Eigen::Vector3d& point_m);
+
+  /// As if no point had come whose block is farther from the place than that, horizontally.
+  void forget_beyond(const Eigen::Vector3d& place_m, double within_m);
 
   [[nodiscard]] std::uint64_t points() const noexcept { return points_; }
   [[nodiscard]] std::uint64_t skipped_points() const noexcept { return skipped_points_; }
@@ -46,12 +49,14 @@ class VoxelMapBuilder {
   };
 
   [[nodiscard]] std::vector<PlacedBlock> blocks_in_order() const;
+  [[nodiscard]] VoxelMoments moments_of(const Block& block) const;
   [[nodiscard]] Block& find_or_add(std::uint64_t key);
   void grow_table();
 
   double resolution_m_;
   double inverse_resolution_1pm_;
   std::size_t capacity_;
+  PointSource source_;
   std::vector<VoxelMoments> cells_;
   std::vector<Block> blocks_;
   std::vector<std::uint32_t> table_;  ///< index + 1 into blocks_, 0: empty

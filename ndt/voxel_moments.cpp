@@ -1,5 +1,7 @@
 #include "ndt/voxel_moments.hpp"
 
+#include <cmath>
+
 #include <Eigen/Eigenvalues>
 
 namespace landfix::ndt {
@@ -52,17 +54,66 @@ constexpr double kSmallestExtent_m = 1e-4;
   return (squares_m2 - n * mean_m * mean_m.transpose()) / (n - 1.0);
 }
 
+/// A normal distribution's axes, as columns, and its variances along them, smallest first.
+struct Shape {
+  Eigen::Matrix3d axes;
+  Eigen::Array3d variances_m2;
+};
+
+[[nodiscard]] Shape shape_of(const VoxelMoments& moments) noexcept {
+  // In closed form: what it loses against the iteration lies far below the bound of the smallest axis.
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+  eigen.computeDirect(covariance_of(moments));
+  return {eigen.eigenvectors(), eigen.eigenvalues()};
+}
+
+/// The points of a single ring lie on a line, and how thin it is across says how thin a beam is, not where
+/// the surface is: matched as it is, a map of few sweeps holds the next ones where these stood. So its
+/// surface is that of `around`, where many rings lie in a plane; else it is a place where something is,
+/// without a direction, or if it is steep the pole that it seems.
+[[nodiscard]] Shape without_ring(const Shape& line, const VoxelMoments& around) noexcept {
+  constexpr double kThin = 0.04;  // of the length, squared
+  constexpr double kSteep = 0.7;  // cosine to the vertical
+  if (line.variances_m2[1] >= kThin * line.variances_m2[2]) return line;
+  const double length_m2 = line.variances_m2[2];
+  const Shape surface = shape_of(around);
+  const Eigen::Vector3d normal = surface.axes.col(0);
+  const Eigen::Vector3d along = line.axes.col(2);
+  const bool is_plane = surface.variances_m2[0] < kThin * surface.variances_m2[1] &&
+                        surface.variances_m2[1] > kThin * surface.variances_m2[2];
+  if (is_plane && std::abs(normal.dot(along)) < kSteep) {
+    Shape disc{.axes = {}, .variances_m2 = {line.variances_m2[0], length_m2, length_m2}};
+    disc.axes.col(0) = normal;
+    disc.axes.col(1) = normal.cross(along).normalized();
+    disc.axes.col(2) = disc.axes.col(1).cross(normal);
+    return disc;
+  }
+  if (std::abs(along.z()) >= kSteep) return line;
+  return {line.axes, Eigen::Array3d::Constant(length_m2)};
+}
+
 }  // namespace
+
+void VoxelMoments::add(const VoxelMoments& more, const std::array<double, 3>& from_here_m) noexcept {
+  const double n = more.count;
+  const auto& [x, y, z] = from_here_m;
+  const auto& s = more.sum_m;
+  const std::array<double, 6> shifted{2.0 * s[0] * x + n * x * x,      s[0] * y + s[1] * x + n * x * y,
+                                      s[0] * z + s[2] * x + n * x * z, 2.0 * s[1] * y + n * y * y,
+                                      s[1] * z + s[2] * y + n * y * z, 2.0 * s[2] * z + n * z * z};
+  count += more.count;
+  for (std::size_t i = 0; i < 3; ++i) sum_m[i] += s[i] + n * from_here_m[i];
+  for (std::size_t i = 0; i < 6; ++i) squares_m2[i] += more.squares_m2[i] + shifted[i];
+}
 
 bool has_shape(const VoxelMoments& moments) noexcept {
   return moments.count >= kMinVoxelPoints &&
          covariance_of(moments).trace() > kSmallestExtent_m * kSmallestExtent_m;
 }
 
-Voxel to_voxel(const VoxelMoments& moments, double resolution_m) noexcept {
-  // In closed form: what it loses against the iteration lies far below the bound of the smallest axis.
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect(covariance_of(moments));
+Voxel to_voxel(const VoxelMoments& moments, double resolution_m, const VoxelMoments* around) noexcept {
+  Shape shape = shape_of(moments);
+  if (around != nullptr) shape = without_ring(shape, *around);
   // The inflation that makes Autoware's voxels robust, as what it is: I / (n - 1) at a resolution of 1 m. It
   // leaves the axes as they are.
   const double inflation_m2 = resolution_m * resolution_m / (moments.count - 1.0);
@@ -72,9 +123,9 @@ Voxel to_voxel(const VoxelMoments& moments, double resolution_m) noexcept {
     voxel.mean_m[axis] = static_cast<float>(mean_m[static_cast<Eigen::Index>(axis)] + 0.5 * resolution_m);
   }
   voxel.count = moments.count;
-  voxel.sharp_1pm2 = inverse(eigen.eigenvectors(),
-                             sharp(eigen.eigenvalues(), kFewPoints * resolution_m / (moments.count - 1.0)));
-  voxel.wide_1pm2 = inverse(eigen.eigenvectors(), wide(eigen.eigenvalues(), inflation_m2));
+  const double blur_m = kFewPoints * resolution_m / (moments.count - 1.0);
+  voxel.sharp_1pm2 = inverse(shape.axes, sharp(shape.variances_m2, blur_m));
+  voxel.wide_1pm2 = inverse(shape.axes, wide(shape.variances_m2, inflation_m2));
   return voxel;
 }
 

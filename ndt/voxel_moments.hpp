@@ -29,15 +29,25 @@ struct VoxelMoments {
     squares_m2[4] += y_m * z_m;
     squares_m2[5] += z_m * z_m;
   }
+  /// Those of another cell, whose centre is there.
+  void add(const VoxelMoments& more, const std::array<double, 3>& from_here_m) noexcept;
 };
 
 /// Fewer points say little about a covariance; the number of PCL and its followers.
 inline constexpr std::uint32_t kMinVoxelPoints = 6;
 
+/// What the points of a cell are.
+enum class PointSource : std::uint8_t {
+  survey,  ///< they cover the surfaces
+  sweeps,  ///< they lie on them in rings, of which a cell may have seen no more than one
+};
+
 /// Whether a cell becomes a voxel: at least kMinVoxelPoints points that are not all in one place.
 [[nodiscard]] bool has_shape(const VoxelMoments& moments) noexcept;
 
-/// The voxel of a cell that has a shape.
-[[nodiscard]] Voxel to_voxel(const VoxelMoments& moments, double resolution_m) noexcept;
+/// The voxel of a cell that has a shape. `around`: of its neighbourhood too, where a cell may have been seen
+/// by a single ring; null: it is as its points lie.
+[[nodiscard]] Voxel to_voxel(const VoxelMoments& moments, double resolution_m,
+                             const VoxelMoments* around = nullptr) noexcept;
 
 }  // namespace landfix::ndt

@@ -13,7 +13,6 @@
 #include "platform/file_error.hpp"
 
 namespace landfix::platform {
-namespace {}  // namespace
 
 AtomicFile::AtomicFile(std::filesystem::path path)
     : path_(std::move(path)), temporary_(path_.string() + ".part" + std::to_string(::getpid())) {
@@ -40,6 +39,12 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::write(std::span<const std::byte> bytes) {
   if (bytes.empty()) return;
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail(path_, "write");
+}
+
+void AtomicFile::overwrite_start(std::string_view text) {
+  if (std::fseek(file_, 0, SEEK_SET) != 0) fail(path_, "write");
+  write(text);
+  if (std::fseek(file_, 0, SEEK_END) != 0) fail(path_, "write");
 }
 
 void AtomicFile::commit() {

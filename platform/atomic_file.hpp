@@ -23,6 +23,8 @@ class AtomicFile {
 
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
+  /// In place of what was written first, of which there is as much.
+  void overwrite_start(std::string_view text);
   /// Flushes, syncs to disk and gives the file its name.
   void commit();
 

@@ -38,7 +38,8 @@ std::vector<ThreadBudget> threads_of(const Configuration& configuration, double 
           row("solve", realtime.solve, 1e3 / sweeps_per_s, "decodes, filters, matches"),
           row("tx", realtime.tx, 1e3 / configuration.can.rate_hz, "sends poses"),
           {"house", 0, -1, kOrdinaryStack_bytes, 0.0, "status, log, watchdog"},
-          {"loader", 0, -1, kOrdinaryStack_bytes, 0.0, "loads map tiles"}};
+          {"loader", 0, -1, kOrdinaryStack_bytes, 0.0, "loads map tiles"},
+          {"searcher", 0, -1, kOrdinaryStack_bytes, 0.0, "looks for a vehicle that is lost"}};
 }
 
 std::uint64_t map_memory(const MapSettings& map, std::uint64_t map_bytes) {
@@ -61,7 +62,7 @@ std::uint64_t filter_bytes(std::size_t capacity) {
 }
 
 std::vector<MemoryBudget> memory_of(const Configuration& configuration, const drivers::SensorModel& model,
-                                    std::uint64_t map_bytes) {
+                                    std::uint64_t map_bytes, std::uint64_t search_bytes) {
   constexpr std::size_t kRealtimeThreads = 3;
   const std::uint64_t map = map_memory(configuration.map, map_bytes);
   return {
@@ -70,6 +71,7 @@ std::vector<MemoryBudget> memory_of(const Configuration& configuration, const dr
       {"points", 2 * Pipeline::kMaxPointsPerPacket * sizeof(drivers::Point), "of a packet, for two sweeps"},
       {"filter", filter_bytes(ndt::Matcher::kMaxPoints), "computed; \"entropy\" takes more"},
       {"matcher", ndt::Matcher({}).memory_bytes(), "of as many points as the filter gives"},
+      {"place search", search_bytes, "the map from above, and lists"},
       {"histograms", kStageCount * sizeof(LatencyHistogram), "one a stage"},
       {"stacks", kRealtimeThreads * kRealtimeStack_bytes, "of the real-time threads"},
   };
@@ -94,9 +96,9 @@ std::uint64_t Budget::memory_bytes() const noexcept {
 }
 
 Budget budget_of(const Configuration& configuration, const drivers::SensorModel& model,
-                 std::uint64_t map_bytes) {
+                 std::uint64_t map_bytes, std::uint64_t search_bytes) {
   return {.threads = threads_of(configuration, fastest_rotation_hz(model)),
-          .memory = memory_of(configuration, model, map_bytes),
+          .memory = memory_of(configuration, model, map_bytes, search_bytes),
           .rates = rates_of(configuration.can, model)};
 }
 

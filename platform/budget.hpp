@@ -40,8 +40,9 @@ struct Budget {
 };
 
 /// `map_bytes`: of the map's file; a larger one than [map] memory_mib is read through a window.
+/// `search_bytes`: of PlaceSearch, if there is one.
 [[nodiscard]] Budget budget_of(const Configuration& configuration, const drivers::SensorModel& model,
-                               std::uint64_t map_bytes);
+                               std::uint64_t map_bytes, std::uint64_t search_bytes);
 
 /// Bits of a frame on the wire with the most stuffing there can be and the gap to the next.
 [[nodiscard]] std::size_t worst_frame_bits(bool fd) noexcept;

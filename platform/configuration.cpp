@@ -95,6 +95,8 @@ void read_map(TomlSection section, MapSettings& map) {
 
 void read_initial_pose(TomlSection section, InitialPoseSettings& initial_pose) {
   section.read("pose", initial_pose.pose);
+  section.read("area", initial_pose.area);
+  if (initial_pose.pose && initial_pose.area) section.fail("area", "no area beside a pose");
   section.read("resume", initial_pose.resume);
   section.finish();
 }

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "ndt/pose.hpp"
+#include "ndt/pose_guess.hpp"
 #include "ndt/scan_filter.hpp"
 #include "platform/gnss.hpp"
 #include "platform/odometry.hpp"
@@ -40,8 +41,10 @@ struct MapSettings {
 };
 
 struct InitialPoseSettings {
-  std::optional<ndt::Pose> pose;  ///< map <- vehicle; nothing: must come from elsewhere
-  std::filesystem::path resume;   ///< where landfixd keeps the last good pose; empty: nowhere
+  // Nothing of these, and nothing from elsewhere: anywhere on the map.
+  std::optional<ndt::Pose> pose;       ///< map <- vehicle
+  std::optional<ndt::PoseGuess> area;  ///< the vehicle is somewhere in it
+  std::filesystem::path resume;        ///< where landfixd keeps the last good pose; empty: nowhere
 };
 
 struct MatcherSettings {

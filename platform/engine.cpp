@@ -14,10 +14,10 @@ namespace landfix::platform {
 
 struct EngineParts {
   EngineParts(EngineSettings engine_settings, const drivers::AnyDecoder& decoder, const ndt::VoxelMap& map,
-              MapWindow* window, PacketReceiver& receiver, FrameSink* bus, FrameSource* vehicle_bus)
+              const MapAids& aids, PacketReceiver& receiver, FrameSink* bus, FrameSource* vehicle_bus)
       : settings(std::move(engine_settings)),
         links(settings.mode, settings.slot_bytes, settings.slots),
-        pipeline(settings.pipeline, decoder, map, nullptr, window),
+        pipeline(settings.pipeline, decoder, map, nullptr, aids),
         receive(links, receiver),
         solve(links, pipeline, vehicle_bus, settings.deadline_ns),
         send(links, settings.pipeline.publish, settings.rate_hz, bus) {}
@@ -63,8 +63,8 @@ void begin_thread(EngineParts& parts, const char* name, ThreadSchedule schedule,
 }  // namespace
 
 Engine::Engine(const EngineSettings& settings, const drivers::AnyDecoder& decoder, const ndt::VoxelMap& map,
-               MapWindow* window, PacketReceiver& receiver, FrameSink* bus, FrameSource* vehicle_bus)
-    : parts_(std::make_unique<EngineParts>(settings, decoder, map, window, receiver, bus, vehicle_bus)) {
+               const MapAids& aids, PacketReceiver& receiver, FrameSink* bus, FrameSource* vehicle_bus)
+    : parts_(std::make_unique<EngineParts>(settings, decoder, map, aids, receiver, bus, vehicle_bus)) {
   parts_->pipeline.warm_up();
 }
 

@@ -16,7 +16,6 @@
 #include "platform/can_frame.hpp"
 #include "platform/engine_links.hpp"
 #include "platform/latency_histogram.hpp"
-#include "platform/map_window.hpp"
 #include "platform/packet_receiver.hpp"
 #include "platform/pipeline.hpp"
 #include "platform/pose_publisher.hpp"
@@ -45,7 +44,7 @@ class Engine {
   /// The memory that `map` views, and the rest, must outlive the engine, and the RunningEngine that it
   /// becomes. Throws std::runtime_error where memory cannot be had.
   Engine(const EngineSettings& settings, const drivers::AnyDecoder& decoder, const ndt::VoxelMap& map,
-         MapWindow* window, PacketReceiver& receiver, FrameSink* bus, FrameSource* vehicle_bus = nullptr);
+         const MapAids& aids, PacketReceiver& receiver, FrameSink* bus, FrameSource* vehicle_bus = nullptr);
   ~Engine();
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;

@@ -75,6 +75,7 @@ struct EngineStatus {
   std::uint64_t deadline_misses = 0;
   std::uint64_t fixes_dropped = 0;  ///< that tx or house had no room for
   std::uint64_t points_dropped = 0;
+  std::uint64_t answers_late = 0;
   std::uint64_t clock_steps = 0;
   std::uint64_t sensor_restarts = 0;
 

@@ -1,6 +1,6 @@
 // A map larger than memory: the tiles around the vehicle, loaded while it drives. The solver takes the newest
 // window at the start of a sweep and says where it is; whoever loads calls load() in a thread of its own
-// (map_loader.hpp), or between sweeps, which makes a replay repeatable.
+// (map_aid_threads.hpp), or between sweeps, which makes a replay repeatable.
 #pragma once
 
 #include <array>

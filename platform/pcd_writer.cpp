@@ -10,6 +10,7 @@
 namespace landfix::platform {
 namespace {
 
+/// As long for any number of points.
 std::string header(std::span<const PcdMember> members, std::size_t points) {
   std::string fields;
   std::string sizes;
@@ -23,7 +24,7 @@ std::string header(std::span<const PcdMember> members, std::size_t points) {
   }
   return fmt::format(
       "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS{}\nSIZE{}\nTYPE{}\nCOUNT{}\n"
-      "WIDTH {}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {}\nDATA binary\n",
+      "WIDTH {:010}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {:010}\nDATA binary\n",
       fields, sizes, types, counts, points, points);
 }
 
@@ -35,20 +36,20 @@ std::size_t point_bytes(std::span<const PcdMember> members) {
 
 }  // namespace
 
-PcdStream::PcdStream(const std::filesystem::path& path, std::span<const PcdMember> members,
-                     std::size_t points)
-    : file_(path), bytes_left_(points * point_bytes(members)) {
-  file_.write(header(members, points));
+PcdStream::PcdStream(const std::filesystem::path& path, std::span<const PcdMember> members)
+    : file_(path), members_(members) {
+  file_.write(header(members_, 0));
 }
 
 void PcdStream::write(std::span<const std::byte> packed) {
-  if (packed.size() > bytes_left_) throw std::logic_error("a point cloud has more points than announced");
-  bytes_left_ -= packed.size();
+  bytes_ += packed.size();
   file_.write(packed);
 }
 
 void PcdStream::commit() {
-  if (bytes_left_ != 0) throw std::logic_error("a point cloud has fewer points than announced");
+  const std::size_t size = point_bytes(members_);
+  if (bytes_ % size != 0) throw std::logic_error("the last point of a cloud is not whole");
+  file_.overwrite_start(header(members_, bytes_ / size));
   file_.commit();
 }
 
@@ -63,7 +64,7 @@ void write_pcd_records(const std::filesystem::path& path, std::span<const PcdMem
       to += member.size;
     }
   }
-  PcdStream cloud(path, members, points);
+  PcdStream cloud(path, members);
   cloud.write(packed);
   cloud.commit();
 }

@@ -22,19 +22,21 @@ struct PcdMember {
   std::size_t offset = 0;  ///< in the record
 };
 
-/// A cloud too large for the memory: its number of points is known beforehand, the points come one by one.
-/// Throws std::runtime_error with the path and the reason.
+/// A cloud too large for the memory, whose points come one by one. Throws std::runtime_error with the path
+/// and the reason.
 class PcdStream {
  public:
-  PcdStream(const std::filesystem::path& path, std::span<const PcdMember> members, std::size_t points);
+  /// `members` must outlive it.
+  PcdStream(const std::filesystem::path& path, std::span<const PcdMember> members);
   /// One point or several: their members in order, without gaps.
   void write(std::span<const std::byte> packed);
-  /// Throws std::logic_error if there were more points or fewer.
+  /// Throws std::logic_error if the last point is not whole.
   void commit();
 
  private:
   AtomicFile file_;
-  std::size_t bytes_left_;
+  std::span<const PcdMember> members_;
+  std::uint64_t bytes_ = 0;  ///< of points
 };
 
 /// `records`: whole records of `record_size` bytes. Throws std::runtime_error with the path and the reason.

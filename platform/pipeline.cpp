@@ -128,9 +128,36 @@ SweepResult Pipeline::localize(const drivers::Sweep& sweep, const SweepOrders& o
 ndt::Fix Pipeline::fix_of(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns,
                           const SweepOrders& orders) noexcept {
   if (orders.skip_match) return localizer_.predict_missing(stamp_utc_ns, motion_to(stamp_utc_ns));
-  if (window_ != nullptr) localizer_.use_map(window_->newest(localizer_.pose().translation()));
-  if (localizer_.is_searching()) localizer_.expect_near(gnss_.guess(schedule_.received(stamp_utc_ns)));
-  return localizer_.localize(points_m, stamp_utc_ns, motion_to(stamp_utc_ns), orders.deadline);
+  if (aids_.window != nullptr) localizer_.use_map(aids_.window->newest(localizer_.pose().translation()));
+  std::optional<ndt::Velocity> undistorted_with;
+  if (settings_.deskew) undistorted_with = deskew_.velocity();
+  const bool searches = localizer_.wants_search();
+  if (searches) {
+    area_ = known_area(stamp_utc_ns);
+    localizer_.expect_near(area_);
+    if (aids_.search != nullptr) localizer_.expect_found(aids_.search->answer());
+  }
+  ndt::Fix fix =
+      localizer_.localize(points_m, stamp_utc_ns, motion_to(stamp_utc_ns), orders.deadline, undistorted_with);
+  if (aids_.search == nullptr) return fix;
+  if (!localizer_.wants_search()) {
+    aids_.search->end();
+    return fix;
+  }
+  if (!searches) area_ = known_area(stamp_utc_ns);
+  aids_.search->put({.stamp_utc_ns = stamp_utc_ns,
+                     .undistorted_with = undistorted_with.value_or(ndt::Velocity::Zero()),
+                     .area = area_},
+                    points_m);
+  counters_.answers_late = aids_.search->late();
+  return fix;
+}
+
+/// Where a vehicle that is looked for is said to be.
+std::optional<ndt::PoseGuess> Pipeline::known_area(std::int64_t stamp_utc_ns) noexcept {
+  std::optional<ndt::PoseGuess> guess = gnss_.guess(schedule_.received(stamp_utc_ns));
+  if (guess || localizer_.has_been_found()) return guess;
+  return settings_.initial_area;
 }
 
 std::optional<ndt::MeasuredMotion> Pipeline::motion_to(std::int64_t stamp_utc_ns) const noexcept {

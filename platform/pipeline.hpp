@@ -16,12 +16,13 @@
 #include "ndt/localizer.hpp"
 #include "ndt/motion.hpp"
 #include "ndt/pose.hpp"
+#include "ndt/pose_guess.hpp"
 #include "ndt/scan_filter.hpp"
 #include "ndt/voxel_map.hpp"
 #include "platform/can_frame.hpp"
 #include "platform/gnss.hpp"
 #include "platform/latency_histogram.hpp"
-#include "platform/map_window.hpp"
+#include "platform/map_aids.hpp"
 #include "platform/odometry.hpp"
 #include "platform/packet_source.hpp"
 #include "platform/pose_publisher.hpp"
@@ -41,8 +42,9 @@ struct PipelineSettings {
   std::size_t filter_capacity = ndt::Matcher::kMaxPoints;  ///< points after the filter
   bool deskew = true;
   ndt::LocalizerSettings localizer{};
-  /// map <- vehicle; nothing: `gnss` tells where to look.
+  /// map <- vehicle; nothing: it is looked for, where `gnss` says, else in `initial_area`, else anywhere.
   std::optional<ndt::Pose> initial_pose{};
+  std::optional<ndt::PoseGuess> initial_area{};
   PublishSettings publish;
   OdometrySettings odometry{};
   GnssSettings gnss{};
@@ -62,6 +64,7 @@ struct PipelineCounters {
   std::uint64_t points_overflowed = 0;  ///< did not fit the sweep
   std::uint64_t points_unfiltered = 0;  ///< did not fit the filter, or were not finite
   std::uint64_t pairs_dropped = 0;      ///< of a point and a voxel, for want of room in the matcher
+  std::uint64_t answers_late = 0;       ///< of the search for a lost vehicle
 
   [[nodiscard]] std::uint64_t rejected() const noexcept { return drivers::rejected(by_status); }
 };
@@ -73,10 +76,9 @@ class Pipeline {
   /// 2048).
   static constexpr std::size_t kMaxPointsPerPacket = 1 << 14;
 
-  /// The memory that `map` views, `bus` and `window` must outlive it; without a bus nothing is published,
-  /// with a window each sweep takes its newest map.
+  /// The memory that `map` views, `bus` and `aids` must outlive it; without a bus nothing is published.
   Pipeline(const PipelineSettings& settings, const drivers::AnyDecoder& decoder, const ndt::VoxelMap& map,
-           FrameSink* bus, MapWindow* window = nullptr);
+           FrameSink* bus, const MapAids& aids = {});
 
   /// Part of the set-up: filters, matches and encodes once, with points of the map around the initial pose,
   /// so that the first sweep finds code and memory in place. Leaves no trace.
@@ -97,6 +99,10 @@ class Pipeline {
       odometry_.add(frame.frame, frame.stamp_utc_ns);
       gnss_.add(frame.frame, frame.stamp_utc_ns);
     }
+  }
+  /// Where nobody else searches: as much of it as is waiting, in its own time.
+  void search() const noexcept {
+    while (aids_.search != nullptr && aids_.search->work()) continue;
   }
   /// At the end of the packets: what came of the last sweep, if any is begun.
   [[nodiscard]] std::optional<SweepResult> finish() noexcept;
@@ -124,6 +130,7 @@ class Pipeline {
   void publish(const SweepResult& result) noexcept;
   [[nodiscard]] ndt::Fix fix_of(std::span<const Eigen::Vector3f> points_m, std::int64_t stamp_utc_ns,
                                 const SweepOrders& orders) noexcept;
+  [[nodiscard]] std::optional<ndt::PoseGuess> known_area(std::int64_t stamp_utc_ns) noexcept;
   void record(Stage stage, std::int64_t duration_ns) noexcept;
 
   PipelineSettings settings_;
@@ -142,7 +149,8 @@ class Pipeline {
   std::int64_t told_utc_ns_ = 0;  ///< the stamp of the last result, of a sweep that came or not
   drivers::TimeSource time_source_ = drivers::TimeSource::receive;  ///< of the last sweep
   PosePublisher publisher_;
-  MapWindow* window_;
+  MapAids aids_;
+  std::optional<ndt::PoseGuess> area_;  ///< of the current sweep, if it is looked for
   PipelineCounters counters_;
   SweepTimes times_;            ///< of the current sweep
   std::int64_t decode_ns_ = 0;  ///< spent on the packets of the current sweep

@@ -6,7 +6,7 @@
 namespace landfix::platform {
 
 Pipeline::Pipeline(const PipelineSettings& settings, const drivers::AnyDecoder& decoder,
-                   const ndt::VoxelMap& map, FrameSink* bus, MapWindow* window)
+                   const ndt::VoxelMap& map, FrameSink* bus, const MapAids& aids)
     : settings_(settings),
       decoder_(decoder),
       points_(2 * kMaxPointsPerPacket),
@@ -17,7 +17,7 @@ Pipeline::Pipeline(const PipelineSettings& settings, const drivers::AnyDecoder& 
       odometry_(settings.odometry),
       gnss_(settings.gnss, settings.publish.map.projection),
       publisher_(settings.publish, bus),
-      window_(window) {}
+      aids_(aids) {}
 
 void Pipeline::warm_up() noexcept {
   constexpr double kReach_m = 60.0;

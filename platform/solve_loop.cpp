@@ -44,6 +44,7 @@ void SolveLoop::take(const SweepResult& result, std::int64_t arrived_mono_ns) no
   if (result.skipped) ++counters_.sweeps_skipped;
   if (result.fix.match.out_of_time) ++counters_.deadline_misses;
   pass_on(result, arrived_mono_ns);
+  if (links_.mode == EngineMode::fast_replay) pipeline_.search();
 }
 
 SweepOrders SolveLoop::orders(const PacketHeader& header) noexcept {

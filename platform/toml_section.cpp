@@ -29,6 +29,20 @@ std::optional<double> number_of(const toml::node& node) {
   return node.is_number() ? node.value<double>() : std::nullopt;
 }
 
+/// Of a list of so many numbers, none of them beyond a coordinate's limit or no number.
+template <std::size_t kCount>
+std::optional<std::array<double, kCount>> numbers_of(const toml::node& node) {
+  const toml::array* const list = node.as_array();
+  if (list == nullptr || list->size() != kCount) return std::nullopt;
+  std::array<double, kCount> numbers{};
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const std::optional<double> number = number_of(*list->get(i));
+    if (!number || !(std::abs(*number) <= kMaxCoordinate_m)) return std::nullopt;
+    numbers[i] = *number;
+  }
+  return numbers;
+}
+
 }  // namespace
 
 std::string place(const std::filesystem::path& file, const toml::source_region& region) {
@@ -146,14 +160,9 @@ std::vector<TomlSection> TomlSection::tables(std::string_view key, std::string_v
 void TomlSection::read(std::string_view key, Eigen::Vector3d& value) {
   const toml::node* const node = find(key);
   if (node == nullptr) return;
-  const toml::array* const array = node->as_array();
-  bool good = array != nullptr && array->size() == 3;
-  for (std::size_t i = 0; good && i < 3; ++i) {
-    const std::optional<double> number = number_of(*array->get(i));
-    good = number && std::abs(*number) <= kMaxCoordinate_m;
-    value[static_cast<Eigen::Index>(i)] = number.value_or(0.0);
-  }
-  if (!good) fail(key, *node, fmt::format("[x, y, z]: three numbers, metres up to {}", kMaxCoordinate_m));
+  const auto numbers = numbers_of<3>(*node);
+  if (!numbers) fail(key, *node, fmt::format("[x, y, z]: three numbers, metres up to {}", kMaxCoordinate_m));
+  value = {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
 }
 
 void TomlSection::read(std::string_view key, ndt::Pose& value) {
@@ -165,25 +174,29 @@ void TomlSection::read(std::string_view key, ndt::Pose& value) {
 void TomlSection::read(std::string_view key, std::optional<ndt::Pose>& value) {
   const toml::node* const node = find(key);
   if (node == nullptr) return;
-  const toml::array* const array = node->as_array();
-  std::array<double, 6> numbers{};
-  bool good = array != nullptr && array->size() == numbers.size();
-  for (std::size_t i = 0; good && i < numbers.size(); ++i) {
-    const toml::node& element = *array->get(i);
-    const std::optional<double> number = number_of(element);
-    good = number && std::abs(*number) <= (i < 3 ? kMaxCoordinate_m : kMaxAngle_deg);
-    numbers[i] = number.value_or(0.0);
-  }
-  if (!good) {
+  const auto numbers = numbers_of<6>(*node);
+  const auto is_angle = [](double number) { return std::abs(number) <= kMaxAngle_deg; };
+  if (!numbers || !std::all_of(numbers->begin() + 3, numbers->end(), is_angle)) {
     fail(key, *node,
          fmt::format(
              "[x, y, z, roll_deg, pitch_deg, yaw_deg]: six numbers, metres up to {} and degrees up to {}",
              kMaxCoordinate_m, kMaxAngle_deg));
   }
-  value =
-      ndt::make_pose({numbers[0], numbers[1], numbers[2]}, {.roll_rad = numbers[3] * ndt::kRadians_per_deg,
-                                                            .pitch_rad = numbers[4] * ndt::kRadians_per_deg,
-                                                            .yaw_rad = numbers[5] * ndt::kRadians_per_deg});
+  const auto& [x_m, y_m, z_m, roll_deg, pitch_deg, yaw_deg] = *numbers;
+  value = ndt::make_pose({x_m, y_m, z_m}, {.roll_rad = roll_deg * ndt::kRadians_per_deg,
+                                           .pitch_rad = pitch_deg * ndt::kRadians_per_deg,
+                                           .yaw_rad = yaw_deg * ndt::kRadians_per_deg});
+}
+
+void TomlSection::read(std::string_view key, std::optional<ndt::PoseGuess>& value) {
+  const toml::node* const node = find(key);
+  if (node == nullptr) return;
+  const auto numbers = numbers_of<3>(*node);
+  if (!numbers || !((*numbers)[2] > 0.0)) {
+    fail(key, *node,
+         fmt::format("[x, y, radius]: three numbers, metres up to {}, the radius above 0", kMaxCoordinate_m));
+  }
+  value = {.position_m = {(*numbers)[0], (*numbers)[1]}, .within_m = (*numbers)[2]};
 }
 
 }  // namespace landfix::platform

@@ -15,6 +15,7 @@
 #include <toml++/toml.h>
 
 #include "ndt/pose.hpp"
+#include "ndt/pose_guess.hpp"
 
 namespace landfix::platform {
 
@@ -40,6 +41,8 @@ class TomlSection {
   /// [x, y, z, roll_deg, pitch_deg, yaw_deg], metres and degrees.
   void read(std::string_view key, ndt::Pose& value);
   void read(std::string_view key, std::optional<ndt::Pose>& value);
+  /// [x, y, radius], metres.
+  void read(std::string_view key, std::optional<ndt::PoseGuess>& value);
   /// A list of whole numbers from 0 on, four at most.
   void read(std::string_view key, std::array<std::uint64_t, 4>& values, std::size_t& count);
   /// The tables of [[NAME.KEY]], which `name` calls by their full name.

@@ -92,7 +92,7 @@ void add_benchmark_command(CLI::App& app) {
       ->required()
       ->type_name("MAP.ndt|MAP.pcd");
   command.add_option("--resolution", arguments->resolution_m, "edge of a voxel of a map that is built [m]")
-      ->check(CLI::Range(0.05, 100.0).description(""))
+      ->check(in_range(0.05, 100.0))
       ->type_name("M")
       ->capture_default_str();
   command.add_option("--scans", arguments->scans, "folder of scans in the vehicle frame, taken by name")
@@ -102,14 +102,14 @@ void add_benchmark_command(CLI::App& app) {
       ->required()
       ->type_name("TRUTH.tum");
   command.add_option("--starts", settings.starts, "starts around the truth of each scan")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}).description(""))
+      ->check(in_range(std::size_t{1}, std::size_t{1'000'000}))
       ->type_name("N")
       ->capture_default_str();
   const auto add_perturbation = [&command](const char* name, std::vector<double>& values, const char* what) {
     return command.add_option(name, values, what)
         ->delimiter(',')
         ->expected(2)
-        ->check(CLI::NonNegativeNumber.description(""))
+        ->check(in_range(0.0, 1e9))
         ->type_name("M,DEG");
   };
   auto* const up_to = add_perturbation("--perturb", arguments->perturb, "starts up to so far from the truth")
@@ -133,7 +133,7 @@ void add_benchmark_command(CLI::App& app) {
       ->type_name("NAME");
   command
       .add_option("--rival-starts", settings.rival_starts, "of each scan's starts, those for the rival too")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}).description(""))
+      ->check(in_range(std::size_t{1}, std::size_t{1'000'000}))
       ->type_name("N")
       ->capture_default_str();
   add_json_option(command, arguments->json);

@@ -14,7 +14,7 @@ namespace {
 
 void add_base_id(CLI::App& command, std::uint32_t& base_id) {
   command.add_option("--base-id", base_id, "identifier of the first frame, as [can] base_id")
-      ->check(CLI::Range(std::uint32_t{1}, platform::kMaxBaseId).description(""))
+      ->check(in_range(std::uint32_t{1}, platform::kMaxBaseId))
       ->type_name("ID")
       ->default_str(fmt::format("0x{:X}", base_id));
 }
@@ -34,7 +34,7 @@ void add_decode(CLI::App& can) {
   add_base_id(decode, arguments->base_id);
   decode.add_option("--count", arguments->count, "end after so many poses")->type_name("N");
   decode.add_option("--seconds", arguments->seconds, "of an interface: end after this time")
-      ->check(CLI::Range(0.0, 1e9).description(""))
+      ->check(in_range(0.0, 1e9))
       ->type_name("S");
   add_json_option(decode, arguments->json);
   decode.callback([arguments] { decode_can(*arguments); });

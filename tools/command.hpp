@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 namespace landfix::tools {
 
@@ -30,6 +31,18 @@ void show_progress(std::string_view text);
 
 /// The option --json, the same in every command: one object on stdout and nothing else.
 void add_json_option(CLI::App& command, bool& json);
+
+/// For an option that is a number from one bound to another; NaN is outside of all.
+template <class Number>
+[[nodiscard]] CLI::Validator in_range(Number least, Number most) {
+  return {[least, most](std::string& text) {
+            Number value{};
+            if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most)
+              return std::string();
+            return fmt::format("'{}' is not a number from {} to {}", text, least, most);
+          },
+          ""};
+}
 
 /// For an option whose value is an enumerator: takes its name; another is an error that lists them.
 template <class Enum>

@@ -10,7 +10,7 @@
 
 #include "platform/can_receiver.hpp"
 #include "platform/engine.hpp"
-#include "platform/map_loader.hpp"
+#include "platform/map_aid_threads.hpp"
 #include "platform/monotonic_clock.hpp"
 #include "platform/realtime.hpp"
 #include "platform/saved_pose.hpp"
@@ -48,12 +48,13 @@ class Signals {
 };
 
 /// The last good pose of the run before, if it is of this map.
-[[nodiscard]] std::optional<ndt::Pose> pose_to_resume(const ReplaySetup& setup) {
-  const std::filesystem::path& path = setup.configuration.initial_pose.resume;
+[[nodiscard]] std::optional<ndt::Pose> pose_to_resume(const platform::Configuration& configuration,
+                                                      std::uint32_t map_checksum) {
+  const std::filesystem::path& path = configuration.initial_pose.resume;
   if (path.empty() || !std::filesystem::exists(path)) return std::nullopt;
   try {
     const platform::SavedPose saved = platform::read_saved_pose(path);
-    if (saved.map_checksum != setup.map_checksum()) {
+    if (saved.map_checksum != map_checksum) {
       log_line(Severity::notice, fmt::format("{}: is of another map; not resumed", path.string()));
       return std::nullopt;
     }
@@ -65,14 +66,6 @@ class Signals {
     log_line(Severity::warning, fmt::format("not resumed: {}", error.what()));
     return std::nullopt;
   }
-}
-
-/// What lies around the initial pose is chosen by it: for a resumed one, all anew.
-[[nodiscard]] ReplaySetup prepare(const std::filesystem::path& config) {
-  ReplaySetup setup = prepare_replay({.config = config});
-  const std::optional<ndt::Pose> resumed = pose_to_resume(setup);
-  if (!resumed) return setup;
-  return prepare_replay({.config = config, .initial_pose = resumed});
 }
 
 /// What is listened to on the vehicle's bus.
@@ -108,8 +101,8 @@ void keep_house(House& house, const Signals& signals) {
 void run_daemon(const std::filesystem::path& config) {
   const Signals signals;
   const platform::ServiceNotifier notifier;
-  platform::keep_heap_pages();
-  const ReplaySetup setup = prepare(config);
+  const ReplaySetup setup = prepare_replay({.config = config, .last_pose = pose_to_resume});
+  platform::keep_heap_pages();  // from here on: what the set-up needed for a while may go
   platform::UdpReceiver receiver(platform::udp_settings(setup.configuration.sensor, setup.model));
   for (const std::string& warning : receiver.warnings()) log_line(Severity::warning, warning);
   platform::SocketCan bus(setup.configuration.can.interface, setup.configuration.can.fd);
@@ -119,11 +112,15 @@ void run_daemon(const std::filesystem::path& config) {
   std::optional<platform::CanReceiver> vehicle_bus;
   if (!vehicle_ids.empty()) vehicle_bus.emplace(setup.configuration.can.interface, vehicle_ids);
   platform::RunningEngine engine(platform::Engine(engine_settings(setup, platform::EngineMode::live),
-                                                  setup.decoder, setup.map(), setup.window.get(), receiver,
-                                                  &bus, vehicle_bus ? &*vehicle_bus : nullptr));
+                                                  setup.decoder, setup.map(), setup.aids(), receiver, &bus,
+                                                  vehicle_bus ? &*vehicle_bus : nullptr));
   for (const std::string& missing : engine.missing()) log_line(Severity::warning, missing);
-  std::optional<platform::MapLoader> loader;  // after the memory was locked: its stack need not be
-  if (setup.window) loader.emplace(*setup.window);
+  // After the memory was locked: their stacks need not be.
+  const platform::MapAidThreads aid_threads(setup.aids());
+  if (!setup.search) {
+    log_line(Severity::notice,
+             fmt::format("a lost vehicle is looked for near its last place alone, as {}", setup.no_search));
+  }
 
   constexpr std::int64_t kThreadBudget_ns = 1'000'000'000;  // each comes round at least every 100 ms
   House house({.engine = engine,

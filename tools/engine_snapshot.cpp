@@ -46,6 +46,7 @@ void add_counts(platform::EngineStatus& status, const platform::SolveStatus& sol
   status.points_dropped = solve.pipeline.points_overflowed + solve.pipeline.points_unfiltered;
   status.odometry = solve.odometry;
   status.gnss = solve.gnss;
+  status.answers_late = solve.pipeline.answers_late;
   status.clock_steps = solve.stream.clock_steps;
   status.sensor_restarts = solve.stream.restarts;
 }

@@ -57,7 +57,7 @@ void add_evaluate_command(CLI::App& app) {
       ->type_name("none|first|se3")
       ->capture_default_str();
   command.add_option("--delta", arguments->delta_s, "interval of the relative errors [s]")
-      ->check(CLI::Range(1e-3, 1e6).description(""))
+      ->check(in_range(1e-3, 1e6))
       ->type_name("S")
       ->capture_default_str();
   add_json_option(command, arguments->json);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -49,13 +50,43 @@ std::vector<std::filesystem::path> list_clouds(const std::filesystem::path& path
   return clouds;
 }
 
+std::vector<std::filesystem::path> list_clouds_once(const std::vector<std::string>& paths) {
+  std::vector<std::filesystem::path> clouds;
+  std::set<std::filesystem::path> known;
+  for (const std::string& path : paths) {
+    for (const std::filesystem::path& cloud : list_clouds(path)) {
+      if (!known.insert(std::filesystem::canonical(cloud)).second)
+        throw UsageError(fmt::format("--pcd: {} is given twice", cloud.string()));
+      clouds.push_back(cloud);
+    }
+  }
+  return clouds;
+}
+
+void visit_clouds(const std::vector<std::filesystem::path>& clouds,
+                  const std::function<void(const Eigen::Vector3d&)>& visit) {
+  constexpr std::uint64_t kPointsAtATime = 1 << 20;
+  std::uint64_t points = 0;
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    const platform::MappedFile file(clouds[i]);
+    ndt::visit_pcd_positions(file.bytes(), clouds[i].string(), [&](const Eigen::Vector3d& point_m) {
+      visit(point_m);
+      if (++points % kPointsAtATime != 0) return;
+      file.drop_pages();
+      show_progress(
+          fmt::format("reading {} of {} clouds, {} million points", i + 1, clouds.size(), points >> 20));
+    });
+  }
+  show_progress("");
+}
+
 void add_range_options(CLI::App& command, RangeLimits& limits) {
   command.add_option("--min-range", limits.min_m, "points nearer to the origin are left out [m]")
-      ->check(CLI::NonNegativeNumber.description(""))
+      ->check(in_range(0.0, 1e9))
       ->type_name("M")
       ->capture_default_str();
   command.add_option("--max-range", limits.max_m, "points farther from the origin are left out [m]")
-      ->check(CLI::PositiveNumber.description(""))
+      ->check(in_range(1e-9, 1e9))
       ->type_name("M")
       ->capture_default_str();
 }
@@ -68,11 +99,11 @@ void add_filter_options(CLI::App& command, ndt::FilterSettings& filter) {
       ->type_name("KIND")
       ->default_str("voxel");
   command.add_option("--entropy-share", filter.entropy_share, "share of the cells that entropy keeps")
-      ->check(CLI::Range(0.01, 1.0).description(""))
+      ->check(in_range(0.01, 1.0))
       ->type_name("SHARE")
       ->capture_default_str();
   command.add_option("--leaf", filter.leaf_m, "edge of a cell of the scan's filter [m]")
-      ->check(CLI::Range(0.01, 100.0).description(""))
+      ->check(in_range(0.01, 100.0))
       ->type_name("M")
       ->capture_default_str();
 }

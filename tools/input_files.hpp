@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,6 +42,13 @@ struct RangeLimits {
 /// if the folder has it, else all by name. Throws UsageError where the folder has none, std::runtime_error
 /// where there is nothing of that name.
 [[nodiscard]] std::vector<std::filesystem::path> list_clouds(const std::filesystem::path& path);
+
+/// Those of several. Throws as above, and UsageError where one is given twice: its points would count double.
+[[nodiscard]] std::vector<std::filesystem::path> list_clouds_once(const std::vector<std::string>& paths);
+
+/// Calls `visit` with each finite point [m] and shows how far it is. Memory does not follow the clouds' size.
+void visit_clouds(const std::vector<std::filesystem::path>& clouds,
+                  const std::function<void(const Eigen::Vector3d&)>& visit);
 
 /// --min-range and --max-range.
 void add_range_options(CLI::App& command, RangeLimits& limits);

@@ -5,18 +5,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "ndt/lattice.hpp"
-#include "ndt/pcd.hpp"
 #include "ndt/voxel_map.hpp"
 #include "ndt/voxel_map_builder.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/mapped_file.hpp"
 #include "tools/command.hpp"
 #include "tools/input_files.hpp"
 #include "tools/landfix_commands.hpp"
@@ -33,22 +30,6 @@ struct MapArguments {
   bool json = false;
 };
 
-/// Points of a file after which its pages are given back and progress is shown.
-constexpr std::uint64_t kPointsAtATime = 1 << 20;
-
-void add_cloud(ndt::VoxelMapBuilder& builder, const std::filesystem::path& path,
-               const Eigen::Vector3d& origin_m, const std::string& progress) {
-  const platform::MappedFile file(path);
-  std::uint64_t points = 0;
-  ndt::visit_pcd_positions(file.bytes(), path.string(), [&](const Eigen::Vector3d& point_m) {
-    builder.add(origin_m + point_m);
-    if (++points % kPointsAtATime != 0) return;
-    file.drop_pages();
-    show_progress(fmt::format("{}, {} million points, {} cells", progress, builder.points() / 1'000'000,
-                              builder.cells()));
-  });
-}
-
 /// Throws UsageError where the map would take the place of one of the clouds.
 void spare_clouds(const std::vector<std::filesystem::path>& clouds, const std::string& output) {
   if (!std::filesystem::exists(output)) return;
@@ -56,15 +37,6 @@ void spare_clouds(const std::vector<std::filesystem::path>& clouds, const std::s
     if (std::filesystem::equivalent(cloud, output)) {
       throw UsageError(fmt::format("--output {} is one of the clouds, which would be lost", output));
     }
-  }
-}
-
-/// Throws UsageError where a cloud's points would count double.
-void refuse_twice(const std::vector<std::filesystem::path>& clouds) {
-  std::set<std::filesystem::path> known;
-  for (const std::filesystem::path& cloud : clouds) {
-    if (!known.insert(std::filesystem::canonical(cloud)).second)
-      throw UsageError(fmt::format("--pcd: {} is given twice", cloud.string()));
   }
 }
 
@@ -77,22 +49,12 @@ void check_origin(const Eigen::Vector3d& origin_m, double resolution_m) {
 
 void make_map(const MapArguments& arguments) {
   const auto began = std::chrono::steady_clock::now();
-  std::vector<std::filesystem::path> files;
-  for (const std::string& cloud : arguments.clouds) {
-    const auto found = list_clouds(cloud);
-    files.insert(files.end(), found.begin(), found.end());
-  }
-  refuse_twice(files);
+  const std::vector<std::filesystem::path> files = list_clouds_once(arguments.clouds);
   const Eigen::Vector3d origin_m(arguments.origin_m[0], arguments.origin_m[1], arguments.origin_m[2]);
   spare_clouds(files, arguments.output);
   check_origin(origin_m, arguments.resolution_m);
   ndt::VoxelMapBuilder builder(arguments.resolution_m, arguments.capacity);
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const std::string progress = fmt::format("reading {} of {} clouds", i + 1, files.size());
-    show_progress(progress);
-    add_cloud(builder, files[i], origin_m, progress);
-  }
-  show_progress("");
+  visit_clouds(files, [&](const Eigen::Vector3d& point_m) { builder.add(origin_m + point_m); });
   const ndt::MapImage image = builder.build();
   platform::AtomicFile file(arguments.output);
   file.write(image.bytes());
@@ -130,7 +92,7 @@ void add_map_command(CLI::App& app) {
       ->required()
       ->type_name("FILE|DIR");
   command.add_option("--resolution", arguments->resolution_m, "edge of a voxel [m]")
-      ->check(CLI::Range(0.05, 100.0).description(""))
+      ->check(in_range(0.05, 100.0))
       ->type_name("M")
       ->capture_default_str();
   command
@@ -139,14 +101,14 @@ void add_map_command(CLI::App& app) {
                   "coordinates count from a place of their own")
       ->delimiter(',')
       ->expected(3)
-      ->check(CLI::Number.description(""))
+      ->check(in_range(-1e12, 1e12))
       ->type_name("X,Y,Z")
       ->default_str("0,0,0");
   command.add_option("--output", arguments->output, "the map")->required()->type_name("MAP.ndt");
   command
       .add_option("--capacity", arguments->capacity,
                   "cells that the clouds may touch, an error beyond; 80 bytes for each that they do")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 30).description(""))
+      ->check(in_range(std::size_t{1}, std::size_t{1} << 30))
       ->type_name("N")
       ->capture_default_str();
   add_json_option(command, arguments->json);

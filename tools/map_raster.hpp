@@ -1,10 +1,10 @@
 // A point map seen from above: cells, shaded by how much stands on them.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -16,7 +16,7 @@ inline constexpr std::size_t kShades = 4;
 /// right and y down from the upper left corner of the area.
 struct MapRaster {
   double cell_m = 1.0;
-  std::array<std::string, kShades> paths;
+  std::vector<std::string> paths;
 };
 
 /// Cells are as small as the points allow without gaps, and as the picture's size does. Points outside of

@@ -132,6 +132,8 @@ void add_counters(Metrics& metrics, const platform::EngineStatus& status) {
                   "Matches that were stopped by the deadline.");
   metrics.counter("fixes_dropped_total", status.fixes_dropped, "Poses that a thread had no room for.");
   metrics.counter("points_dropped_total", status.points_dropped, "Points that found no room.");
+  metrics.counter("answers_late_total", status.answers_late,
+                  "Answers of the search for a lost vehicle that were not there in time.");
   metrics.counter("clock_steps_total", status.clock_steps,
                   "Times that the sensor's or the receiver's clock was set.");
   metrics.counter("sensor_restarts_total", status.sensor_restarts, "Restarts of the sensor.");

@@ -126,15 +126,15 @@ void add_play_command(CLI::App& app) {
                   "address of this computer to send from; else the recorded one, if it has it")
       ->type_name("ADDRESS");
   command.add_option("--speed", settings.speed, "times the recorded pace; 0: as fast as it goes")
-      ->check(CLI::Range(0.0, 1e6).description(""))
+      ->check(in_range(0.0, 1e6))
       ->type_name("X")
       ->capture_default_str();
   command.add_option("--loop", settings.laps, "how often the capture is played")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}).description(""))
+      ->check(in_range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
       ->type_name("N")
       ->capture_default_str();
   command.add_option("--ttl", settings.multicast_hops, "networks that a multicast may cross")
-      ->check(CLI::Range(0, 255).description(""))
+      ->check(in_range(0, 255))
       ->type_name("N")
       ->capture_default_str();
   add_json_option(command, arguments->json);

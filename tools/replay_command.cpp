@@ -12,7 +12,7 @@
 #include "platform/engine.hpp"
 #include "platform/evaluation.hpp"
 #include "platform/hgrm.hpp"
-#include "platform/map_loader.hpp"
+#include "platform/map_aid_threads.hpp"
 #include "platform/pcap_receiver.hpp"
 #include "platform/pcap_source.hpp"
 #include "platform/pipeline.hpp"
@@ -127,13 +127,16 @@ struct Seams {
 [[nodiscard]] ReplayResult replay_at_once(const ReplaySetup& setup, const std::filesystem::path& capture,
                                           const Seams& seams) {
   platform::PcapSource source(capture);
-  platform::Pipeline pipeline(setup.settings, setup.decoder, setup.map(), seams.bus, setup.window.get());
+  if (setup.search) setup.search->prepare();
+  platform::Pipeline pipeline(setup.settings, setup.decoder, setup.map(), seams.bus, setup.aids());
   ReplayResult result = run_replay(
       source, pipeline,
       [&](const platform::SweepResult& sweep) {
         if (seams.trace != nullptr)
           seams.trace->add({.result = sweep, .arrived_mono_ns = sweep.times.last_packet_ns});
-        if (setup.window) (void)setup.window->load();  // here, so that two replays are the same
+        // Here, so that two replays are the same.
+        if (setup.window) (void)setup.window->load();
+        pipeline.search();
         show_progress(fmt::format("{:3.0f} %  {}", source.percent_read(), ndt::to_string(sweep.fix.state)));
       },
       &seams.vehicle_bus);
@@ -148,14 +151,16 @@ struct Seams {
       arguments.realtime ? platform::EngineMode::paced_replay : platform::EngineMode::fast_replay;
   platform::PcapReceiver receiver(
       pcap_settings(setup, capture, arguments.realtime ? 1.0 : 0.0, arguments.laps));
+  if (setup.search)
+    setup.search->prepare();  // before anything waits for it, so that two replays are the same
   const bool keep_sweeps = arguments.laps == 1 || !arguments.trajectory.empty() || !arguments.truth.empty() ||
                            !arguments.svg.empty() || !arguments.report.empty();
   platform::RunningEngine engine(platform::Engine(engine_settings(setup, mode), setup.decoder, setup.map(),
-                                                  setup.window.get(), receiver, seams.bus,
-                                                  &seams.vehicle_bus));
+                                                  setup.aids(), receiver, seams.bus, &seams.vehicle_bus));
   for (const std::string& missing : engine.missing()) fmt::print(stderr, "landfix: {}\n", missing);
-  std::optional<platform::MapLoader> loader;  // after the memory was locked: its stack need not be
-  if (setup.window) loader.emplace(*setup.window);
+  // After the memory was locked: their stacks need not be. As fast as it goes, the solver searches itself.
+  const platform::MapAidThreads aid_threads(
+      {.window = setup.window.get(), .search = arguments.realtime ? setup.search.get() : nullptr});
   std::size_t sweeps = 0;
   ReplayResult result = run_engine(
       engine, receiver.counters(), keep_sweeps,
@@ -175,11 +180,12 @@ struct Seams {
 [[nodiscard]] std::vector<platform::StampedFrame> read_vehicle_bus(const ReplayArguments& arguments,
                                                                    const ReplaySetup& setup) {
   if (arguments.odometry.empty()) {
-    if (setup.settings.initial_pose) return {};
+    const platform::PipelineSettings& known = setup.settings;
+    if (setup.search || known.initial_pose || known.initial_area) return {};
     throw UsageError(
-        "no initial pose, and no bus on which GNSS could tell it: give --initial-pose, [initial_pose] pose "
-        "in "
-        "the configuration, or --odometry with a log");
+        "where is the vehicle? No bus on which GNSS could tell it: give --initial-pose, [initial_pose] in "
+        "the "
+        "configuration, or --odometry with a log");
   }
   if (setup.settings.odometry.count + setup.settings.gnss.count == 0) {
     throw UsageError(
@@ -269,7 +275,7 @@ void add_replay_command(CLI::App& app) {
           "run through the capture N times, in the vehicle's threads, its times shifted a lap each; for "
           "routes that end where they begin")
       ->type_name("N")
-      ->check(CLI::Range(1, 1'000'000));
+      ->check(in_range(1, 1'000'000));
   add_json_option(command, arguments->json);
   command.callback([arguments, &command] {
     arguments->command = command_line(command);

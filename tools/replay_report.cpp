@@ -87,6 +87,7 @@ nlohmann::ordered_json to_json(const ReplayReport& report) {
   object["points_dropped"] = {{"sweep_full", counters.points_overflowed},
                               {"filter_full_or_not_finite", counters.points_unfiltered}};
   object["pairs_dropped"] = counters.pairs_dropped;
+  object["answers_late"] = counters.answers_late;
   object["clock_steps"] = stream.clock_steps;
   object["restarts"] = stream.restarts;
   if (const platform::GnssCounters& gnss = result.gnss; gnss.frames != 0) {
@@ -140,6 +141,10 @@ std::string to_text(const ReplayReport& report) {
       counters.other_ports, result.tally.iterations_mean());
   for (const auto& [reason, packets] : rejections(counters.by_status)) {
     text += fmt::format("  rejected   {}: {}\n", packets, reason);
+  }
+  if (counters.answers_late != 0) {
+    text += fmt::format("             {} answers of the search for a lost vehicle were late\n",
+                        counters.answers_late);
   }
   if (stream.clock_steps != 0) text += fmt::format("             {} steps of a clock\n", stream.clock_steps);
   if (stream.restarts != 0) text += fmt::format("             {} restarts of the sensor\n", stream.restarts);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -10,6 +11,7 @@
 
 #include "drivers/make_decoder.hpp"
 #include "ndt/map_middle.hpp"
+#include "ndt/reach.hpp"
 #include "platform/ipv4.hpp"
 #include "platform/map_projector_info.hpp"
 #include "tools/command.hpp"
@@ -30,11 +32,6 @@ namespace {
                                                       const drivers::SensorModel& model,
                                                       const ReplayInput& input) {
   const auto& initial_pose = input.initial_pose ? input.initial_pose : configuration.initial_pose.pose;
-  if (!initial_pose && configuration.gnss.count == 0) {
-    throw UsageError(
-        "no initial pose: give --initial-pose, or [initial_pose] pose or [[gnss.signal]] in the "
-        "configuration");
-  }
   platform::PipelineSettings settings{
       .port = configuration.sensor.port != 0 ? configuration.sensor.port : model.data_port,
       .telemetry_port = model.telemetry_port,
@@ -44,6 +41,7 @@ namespace {
       .filter = configuration.filter,
       .deskew = input.deskew,
       .initial_pose = initial_pose,
+      .initial_area = configuration.initial_pose.area,
       .publish = {.can_base_id = configuration.can.base_id, .can_fd = configuration.can.fd},
       .odometry = configuration.odometry,
       .gnss = configuration.gnss};
@@ -79,27 +77,73 @@ namespace {
   return reference;
 }
 
-/// The map, whole if its memory allows, else a window of it.
-void add_map(ReplaySetup& setup, const std::filesystem::path& path) {
+/// Where the vehicle is at first, as far as it is known.
+[[nodiscard]] std::optional<Eigen::Vector3d> known_start_m(const platform::PipelineSettings& settings) {
+  if (settings.initial_pose) return settings.initial_pose->translation();
+  if (!settings.initial_area) return std::nullopt;
+  const Eigen::Vector2d& middle_m = settings.initial_area->position_m;
+  return Eigen::Vector3d(middle_m.x(), middle_m.y(), 0.0);
+}
+
+void load_window(ReplaySetup& setup, const std::filesystem::path& path, double memory_bytes) {
+  const platform::MapWindowSettings settings{.memory_bytes = static_cast<std::size_t>(memory_bytes),
+                                             .reach_m = setup.configuration.sensor.max_range_m};
+  setup.window = std::make_unique<platform::MapWindow>(path, settings, known_start_m(setup.settings));
+}
+
+/// The map, whole if its memory allows, else a window of it; where the vehicle was seen last decides which.
+void add_map(ReplaySetup& setup, const std::filesystem::path& path, const ReplayInput& input) {
   constexpr double kBytes_per_mib = 1 << 20;
   const double memory_bytes = setup.configuration.map.memory_mib * kBytes_per_mib;
   std::error_code no_size;
   const auto file_bytes = static_cast<double>(std::filesystem::file_size(path, no_size));
-  if (memory_bytes == 0.0 || no_size || file_bytes <= memory_bytes) {
+  const bool is_whole = memory_bytes == 0.0 || no_size || file_bytes <= memory_bytes;
+  if (is_whole) {
     setup.image = load_map_file(path);
+  } else {
+    load_window(setup, path, memory_bytes);
+  }
+  if (!input.last_pose) return;
+  const auto last_pose = input.last_pose(setup.configuration, setup.map_checksum());
+  if (!last_pose) return;
+  setup.settings.initial_pose = last_pose;
+  if (!is_whole) load_window(setup, path, memory_bytes);
+}
+
+/// Of a whole map that is not too wide.
+void add_search(ReplaySetup& setup) {
+  if (setup.window) {
+    setup.no_search = "of the map only a window is in memory ([map] memory_mib)";
     return;
   }
-  const platform::MapWindowSettings settings{.memory_bytes = static_cast<std::size_t>(memory_bytes),
-                                             .reach_m = setup.configuration.sensor.max_range_m};
-  std::optional<Eigen::Vector3d> start_m;
-  if (setup.settings.initial_pose) start_m = setup.settings.initial_pose->translation();
-  setup.window = std::make_unique<platform::MapWindow>(path, settings, start_m);
+  try {
+    setup.search = std::make_unique<platform::PlaceSearch>(setup.map());
+  } catch (const std::runtime_error& error) {
+    setup.no_search = error.what();
+  }
+}
+
+/// Where there is nothing to begin with, the map must be one that can be searched; an area must be on it.
+void check_start(const ReplaySetup& setup) {
+  const platform::PipelineSettings& known = setup.settings;
+  if (const auto& area = known.initial_area;
+      area && !setup.window && !ndt::lowest_m(setup.map(), area->position_m, area->within_m)) {
+    throw UsageError(
+        fmt::format("[initial_pose] area: the map shows nothing within {} m of x {}, y {}; it counts in the "
+                    "frame of the map",
+                    area->within_m, area->position_m.x(), area->position_m.y()));
+  }
+  if (setup.search || known.initial_pose || known.initial_area || known.gnss.count != 0) return;
+  throw UsageError(
+      fmt::format("where is the vehicle? It cannot be looked for everywhere, as {}: give --initial-pose, or "
+                  "[initial_pose] or [[gnss.signal]] in the configuration",
+                  setup.no_search));
 }
 
 }  // namespace
 
 Eigen::Vector3d ReplaySetup::start_m() const {
-  if (settings.initial_pose) return settings.initial_pose->translation();
+  if (const auto known_m = known_start_m(settings)) return *known_m;
   if (window) return window->start_m();
   const ndt::VoxelMap whole = map();
   return ndt::middle_m(whole.blocks(), whole.resolution_m());
@@ -110,9 +154,12 @@ ReplaySetup prepare_replay(const ReplayInput& input) {
   const drivers::SensorModel& model = find_sensor(configuration.sensor.model);
   const platform::PipelineSettings settings = settings_for(configuration, model, input);
   const drivers::AnyDecoder decoder = decoder_for(model, configuration.sensor);
-  ReplaySetup setup{std::move(configuration), model, settings, decoder, {}, nullptr};
+  ReplaySetup setup{std::move(configuration), model, settings, decoder, {}, nullptr, nullptr, {}};
   const std::filesystem::path path = map_path(setup.configuration, input);
-  add_map(setup, path);
+  add_map(setup, path, input);
+  if (setup.settings.initial_pose) setup.settings.initial_area.reset();
+  add_search(setup);
+  check_start(setup);
   setup.settings.publish.map = reference_of(setup);
   const double resolution_m = setup.map().resolution_m();
   if (resolution_m != setup.configuration.matcher.resolution_m) {

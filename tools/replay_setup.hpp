@@ -1,9 +1,12 @@
 // From a configuration to what a replay needs, each part checked.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "drivers/any_decoder.hpp"
 #include "drivers/sensor_model.hpp"
@@ -11,8 +14,10 @@
 #include "ndt/pose.hpp"
 #include "ndt/voxel_map.hpp"
 #include "platform/configuration.hpp"
+#include "platform/map_aids.hpp"
 #include "platform/map_window.hpp"
 #include "platform/pipeline.hpp"
+#include "platform/place_search.hpp"
 
 namespace landfix::tools {
 
@@ -21,6 +26,8 @@ struct ReplayInput {
   std::filesystem::path config;
   std::filesystem::path map{};              ///< empty: the configuration's
   std::optional<ndt::Pose> initial_pose{};  ///< nothing: the configuration's
+  /// The pose to go on from in place of both, by the map's checksum; nothing: none.
+  std::function<std::optional<ndt::Pose>(const platform::Configuration&, std::uint32_t)> last_pose{};
   bool deskew = true;
 };
 
@@ -31,11 +38,14 @@ struct ReplaySetup {
   drivers::AnyDecoder decoder;
   ndt::MapImage image;                          ///< the whole map, or none
   std::unique_ptr<platform::MapWindow> window;  ///< where the map is larger than its memory
+  std::unique_ptr<platform::PlaceSearch> search;
+  std::string no_search;  ///< why there is none
 
   [[nodiscard]] ndt::VoxelMap map() const {
     return window ? window->newest(window->start_m()) : ndt::VoxelMap(image.bytes());
   }
-  /// Where the vehicle is at first, or the middle of the map.
+  [[nodiscard]] platform::MapAids aids() const { return {.window = window.get(), .search = search.get()}; }
+  /// Where the vehicle is at first, as far as that is known, or the middle of the map.
   [[nodiscard]] Eigen::Vector3d start_m() const;
   /// That covers all of the map.
   [[nodiscard]] std::uint32_t map_checksum() const {
@@ -43,8 +53,9 @@ struct ReplaySetup {
   }
 };
 
-/// Throws UsageError where the map or the initial pose is given nowhere, or what a section needs of another;
-/// std::runtime_error where a file does not do.
+/// Throws UsageError where the map is given nowhere, nor a place to begin with on one that cannot be
+/// searched, an area that the map does not show, or what a section needs of another; std::runtime_error where
+/// a file does not do.
 [[nodiscard]] ReplaySetup prepare_replay(const ReplayInput& input);
 
 }  // namespace landfix::tools

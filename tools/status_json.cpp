@@ -39,6 +39,7 @@ nlohmann::ordered_json to_json(const platform::EngineStatus& status) {
                       {"deadline_misses", status.deadline_misses}};
   object["fixes_dropped"] = status.fixes_dropped;
   object["points_dropped"] = status.points_dropped;
+  object["answers_late"] = status.answers_late;
   object["clock_steps"] = status.clock_steps;
   object["restarts"] = status.sensor_restarts;
   const platform::OdometryStatus& odometry = status.odometry;

@@ -37,10 +37,10 @@ class Drive : public ::testing::Test {
   Localizer localizer_{map_, {}, start_* make_pose({0.2, -0.1, 0.05}, {.yaw_rad = 0.02})};
 };
 
-TEST_F(Drive, TracksFromTheFirstSweepAndLearnsTheVelocity) {
+TEST_F(Drive, TracksOnceItsSweepsAreUndistortedWithItsVelocity) {
   for (int sweep = 0; sweep < 20; ++sweep) {
     const Fix fix = localize(sweep);
-    EXPECT_EQ(fix.state, State::tracking) << sweep;
+    EXPECT_EQ(fix.state, sweep < 2 ? State::degraded : State::tracking) << sweep;
     EXPECT_LT(error_m(fix, sweep), 0.05) << sweep;
     EXPECT_EQ(fix.at.stamp_utc_ns, kSweep_ns * (10 + sweep));
   }
@@ -106,7 +106,8 @@ TEST_F(Drive, ASilenceBeforeTheFirstMatchLeavesTheGuess) {
   EXPECT_EQ(localizer_.predict_missing(kSweep_ns * 11).state, State::init);
   EXPECT_EQ(localizer_.wait_for_data(kSweep_ns * 21).state, State::no_data);
   EXPECT_EQ(see_nothing(12).state, State::init);
-  EXPECT_EQ(localizer_.localize(scan(0), kSweep_ns * 23).state, State::tracking);
+  EXPECT_EQ(localizer_.localize(scan(0), kSweep_ns * 23).state, State::degraded)
+      << "its velocity is not known";
 }
 
 TEST_F(Drive, GoesOnAsBeforeWhereTheClockIsSetWhileSweepsCome) {
@@ -196,7 +197,50 @@ TEST_F(Drive, IsNotLedAwayByASplinterOfASweep) {
 TEST_F(Drive, StaysInInitUntilAMatchIsBelieved) {
   EXPECT_EQ(see_nothing(0).state, State::init);
   EXPECT_EQ(see_nothing(1).state, State::init);
-  EXPECT_EQ(localizer_.localize(scan(0), kSweep_ns * 12).state, State::tracking);
+  EXPECT_EQ(localizer_.localize(scan(0), kSweep_ns * 12).state, State::degraded)
+      << "its velocity is not known";
+}
+
+TEST_F(Drive, WantsASearchUntilItIsSureAndWhenItIsNotAnyMore) {
+  EXPECT_TRUE(localizer_.wants_search());
+  for (int sweep = 0; sweep < 5; ++sweep) (void)localize(sweep);
+  EXPECT_FALSE(localizer_.wants_search());
+  for (int sweep = 5; sweep < 7; ++sweep) {
+    (void)see_nothing(sweep);
+    EXPECT_FALSE(localizer_.wants_search()) << sweep;
+  }
+  for (int sweep = 7; sweep < 9; ++sweep) (void)see_nothing(sweep);
+  EXPECT_TRUE(localizer_.wants_search());
+  EXPECT_EQ(localize(9).state, State::tracking);
+  EXPECT_FALSE(localizer_.wants_search());
+}
+
+TEST_F(Drive, GoesWhereItIsFoundFromAWrongPoseOrHeading) {
+  for (const Pose& wrong :
+       {start_ * make_pose({8.0, 5.0, 0.0}, {}), start_ * make_pose({}, {.yaw_rad = 2.5})}) {
+    Localizer localizer(map_, {}, wrong);
+    for (int sweep = 0; sweep < 8; ++sweep) {
+      if (sweep >= 5) {
+        localizer.expect_found(
+            Found{.at = {kSweep_ns * (9 + sweep), truth(sweep - 1)}, .velocity = velocity_});
+      }
+      const Fix fix = localizer.localize(scan(sweep), kSweep_ns * (10 + sweep));
+      EXPECT_EQ(fix.state == State::tracking, sweep > 5) << "once it is undistorted with the velocity found";
+      if (fix.state != State::tracking) continue;
+      EXPECT_LT(error_m(fix, sweep), 0.05);
+    }
+  }
+}
+
+TEST_F(Drive, HeedsNoAnswerOfAnotherTime) {
+  for (const std::int64_t age_ns : {-kSweep_ns, std::int64_t{0}, 10 * kSweep_ns}) {
+    Localizer localizer(map_, {}, start_);
+    for (int sweep = 0; sweep < 5; ++sweep) (void)localizer.localize(scan(sweep), kSweep_ns * (10 + sweep));
+    for (int sweep = 5; sweep < 9; ++sweep) (void)localizer.localize({}, kSweep_ns * (10 + sweep));
+    const std::int64_t stamp_utc_ns = kSweep_ns * 19;
+    localizer.expect_found(Found{.at = {stamp_utc_ns - age_ns, Pose::Identity()}});
+    EXPECT_EQ(localizer.localize(scan(9), stamp_utc_ns).state, State::tracking) << age_ns;
+  }
 }
 
 TEST_F(Drive, DoesNotBelieveALeap) {
@@ -234,7 +278,7 @@ TEST(Localizer, GoesOnAsBeforeAlongACorridorAndSaysSo) {
     EXPECT_NEAR(place_m.y(), 0.0, 0.05) << sweep;
     const double sigma_m = std::sqrt(to_vehicle_covariance(fix.covariance, fix.at.pose)(0, 0));
     if (sweep < 20) {
-      EXPECT_EQ(fix.state, State::tracking) << sweep;
+      EXPECT_EQ(fix.state, sweep < 2 ? State::degraded : State::tracking) << sweep;
     } else if (sweep > 50) {
       // 12 m and more behind the last pillar.
       EXPECT_EQ(fix.state, State::degraded) << sweep;
@@ -247,21 +291,6 @@ TEST(Localizer, GoesOnAsBeforeAlongACorridorAndSaysSo) {
     before_m = place_m.x();
     sigma_before_m = sigma_m;
   }
-}
-
-TEST(Judge, NeedsConvergenceAndAScore) {
-  MatchResult match{
-      .nearest_voxel_likelihood = 2.0, .best_likelihood = 2.2, .points = 100, .points_matched = 90};
-  EXPECT_EQ(judge(match, {}), Fit::none);
-  match.converged = true;
-  EXPECT_EQ(judge(match, {}), Fit::good);
-  match.points_matched = 30;
-  EXPECT_EQ(judge(match, {}), Fit::weak);
-  match.nearest_voxel_likelihood = 0.4;
-  EXPECT_EQ(judge(match, {}), Fit::none);
-  match.points = 0;
-  match.nearest_voxel_likelihood = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(judge(match, {}), Fit::none);
 }
 
 }  // namespace

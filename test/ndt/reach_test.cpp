@@ -47,6 +47,19 @@ TEST_F(Ground, TheLowestIsBelowTheBridge) {
   EXPECT_FALSE(lowest_m(map_, {200.0, 0.0}, 3.0));
 }
 
+TEST_F(Ground, ABridgeIsASecondFloor) {
+  std::array<double, 4> heights_m{};
+  ASSERT_EQ(find_floors(map_, {0.5, 3.5}, -1.0, heights_m), 2U);
+  EXPECT_NEAR(heights_m[0], 0.0, 0.1);
+  EXPECT_NEAR(heights_m[1], 9.0, 0.05);
+  ASSERT_EQ(find_floors(map_, {10.5, 3.5}, -1.0, heights_m), 1U);
+  EXPECT_NEAR(heights_m[0], kSlope * 10.5, 0.05);
+  ASSERT_EQ(find_floors(map_, {0.5, 3.5}, -1.0, std::span(heights_m).first(1)), 1U);
+  EXPECT_NEAR(heights_m[0], 0.0, 0.1) << "the lowest stays";
+  EXPECT_EQ(find_floors(map_, {50.5, 3.5}, -1.0, heights_m), 0U) << "beyond the map";
+  EXPECT_EQ(find_floors(map_, {1e12, 3.5}, -1.0, heights_m), 0U) << "beyond every map";
+}
+
 TEST_F(Ground, APoseOnASlopeLeansWithIt) {
   const Pose uphill = on_slope(map_, make_pose({20.0, 0.0, kSlope * 20.0}, {}));
   EXPECT_NEAR(to_roll_pitch_yaw(uphill.linear()).pitch_rad, -std::atan(kSlope), 0.01) << "nose up";

@@ -210,6 +210,28 @@ TEST(VoxelMapBuilder, AFullMapSaysSo) {
   }
 }
 
+TEST(VoxelMapBuilder, ForgetsWhatIsFarAwayAsIfItHadNeverCome) {
+  constexpr double kWithin_m = 9.0;
+  const Eigen::Vector3d place_m(3.0, -2.0, 100.0);  // the height does not count
+  const auto is_near = [&](const Eigen::Vector3d& point_m) {
+    const Eigen::Array2d middle_m = 4.0 * (point_m.head<2>().array() / 4.0).floor() + 2.0;  // of its block
+    return (middle_m.matrix() - place_m.head<2>()).norm() <= kWithin_m;
+  };
+  VoxelMapBuilder builder(1.0, 100'000);
+  VoxelMapBuilder only_near(1.0, 100'000);
+  for (const Eigen::Vector3d& point_m : random_yard(1, 20'000)) {
+    builder.add(point_m);
+    if (is_near(point_m)) only_near.add(point_m);
+  }
+  ASSERT_LT(only_near.points(), builder.points());
+  builder.forget_beyond(place_m, kWithin_m);
+  EXPECT_EQ(builder.points(), only_near.points());
+  EXPECT_EQ(builder.cells(), only_near.cells());
+  const MapImage image = builder.build();
+  const MapImage expected = only_near.build();
+  EXPECT_TRUE(std::ranges::equal(image.bytes(), expected.bytes()));
+}
+
 TEST(VoxelMapBuilder, SkipsPointsThatHaveNoPlaceInTheLattice) {
   VoxelMapBuilder builder(1.0, 2);
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

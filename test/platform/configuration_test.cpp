@@ -90,7 +90,7 @@ TEST(Configuration, TheExampleMentionsEveryKey) {
     std::istringstream keys(error.substr(error.find(has) + has.size()));
     for (std::string key; std::getline(keys >> std::ws, key, ',');) {
       EXPECT_THAT(text, HasSubstr(fmt::format(
-                            "\n{}{}", key == "pose" ? "# " : "",
+                            "\n{}{}", key == "pose" || key == "area" ? "# " : "",
                             key == "signal" ? fmt::format("# [[{}.signal]]", section) : key + " = ")))
           << section;
     }
@@ -237,10 +237,23 @@ TEST(Configuration, BadValuesAreRefused) {
       {"vehicle", "sensor_pose = 0"},
       {"initial_pose", "pose = [1e9, 0, 0, 0, 0, 0]"},
       {"initial_pose", "pose = [0, 0, 0, 0, 0, 361]"},
+      {"initial_pose", "area = [0, 0]"},
+      {"initial_pose", "area = [0, 0, 0]"},
+      {"initial_pose", "area = [0, 0, -1]"},
+      {"initial_pose", "area = [0, \"here\", 1]"},
+      {"initial_pose", "pose = [0, 0, 0, 0, 0, 0]\narea = [0, 0, 1]"},
   };
   for (const auto& [section, line] : lines) {
     EXPECT_THAT(error_of(section, line), HasSubstr("expected ")) << section << ' ' << line;
   }
+}
+
+TEST(Configuration, AnAreaToBeLookedForIn) {
+  const Configuration read = parse(kSensor + "[initial_pose]\narea = [100.5, -20, 50]\n");
+  EXPECT_FALSE(read.initial_pose.pose);
+  EXPECT_EQ(read.initial_pose.area->position_m, Eigen::Vector2d(100.5, -20.0));
+  EXPECT_EQ(read.initial_pose.area->within_m, 50.0);
+  EXPECT_FALSE(read.initial_pose.area->yaw_rad);
 }
 
 TEST(Configuration, PathsStartFromTheFilesFolder) {

@@ -16,7 +16,7 @@
 #include "platform/atomic_file.hpp"
 #include "platform/hand_over.hpp"
 #include "platform/heap_counter.hpp"
-#include "platform/map_loader.hpp"
+#include "platform/map_aid_threads.hpp"
 #include "support/test_data.hpp"
 
 namespace landfix::platform {
@@ -181,7 +181,7 @@ TEST_F(MapWindowTest, ATileDamagedOnDiskIsCountedAndTheRestGoesOn) {
 
 TEST_F(MapWindowTest, ALoaderThreadKeepsUpWithASolverThatNeverWaits) {
   MapWindow window(path_, {.memory_bytes = 1 << 20, .reach_m = 50.0}, Eigen::Vector3d(100.0, 5.0, 0.0));
-  const MapLoader loader(window);
+  const MapAidThreads loader({.window = &window});
   std::size_t voxels = 0;
   for (double x_m = 100.0; x_m < 900.0; x_m += 1.0) {
     const ndt::VoxelMap map = window.newest({x_m, 5.0, 0.0});

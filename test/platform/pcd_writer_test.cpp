@@ -54,25 +54,19 @@ TEST(PcdStream, WritesWhatTheWholeCloudAtOnceWouldBe) {
   const test::TemporaryDirectory directory;
   const std::vector<std::array<float, 3>> points{{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}, {7.0F, 8.0F, 9.0F}};
   write_pcd<std::array<float, 3>>(directory.path() / "whole.pcd", kPositionMembers, points);
-  PcdStream stream(directory.path() / "stream.pcd", kPositionMembers, points.size());
+  PcdStream stream(directory.path() / "stream.pcd", kPositionMembers);
   for (const auto& point : points) stream.write(std::as_bytes(std::span(point)));
   stream.commit();
   EXPECT_EQ(read_file(directory.path() / "stream.pcd"), read_file(directory.path() / "whole.pcd"));
 }
 
-TEST(PcdStream, LeavesNoFileWhoseHeaderIsWrong) {
+TEST(PcdStream, LeavesNoFileWhoseLastPointIsNotWhole) {
   const test::TemporaryDirectory directory;
-  const std::array<float, 3> point{1.0F, 2.0F, 3.0F};
-  const auto bytes = std::as_bytes(std::span(point));
   {
-    PcdStream stream(directory.path() / "few.pcd", kPositionMembers, 2);
-    stream.write(bytes);
+    PcdStream stream(directory.path() / "torn.pcd", kPositionMembers);
+    constexpr std::array<float, 4> kPointAndAThird{1.0F, 2.0F, 3.0F, 4.0F};
+    stream.write(std::as_bytes(std::span(kPointAndAThird)));
     EXPECT_THROW(stream.commit(), std::logic_error);
-  }
-  {
-    PcdStream stream(directory.path() / "many.pcd", kPositionMembers, 1);
-    stream.write(bytes);
-    EXPECT_THROW(stream.write(bytes), std::logic_error);
   }
   EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
 }

@@ -6,16 +6,17 @@
 #include <gtest/gtest.h>
 
 #include "support/error_of.hpp"
+#include "support/test_data.hpp"
 
 namespace landfix::platform {
 namespace {
 
 class SavedPoseFile : public ::testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(path.parent_path()); }
   void write(const char* text) const { std::ofstream(path) << text; }
 
-  const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / "saved_pose" / "pose.toml";
+  const test::TemporaryDirectory folder;
+  const std::filesystem::path path = folder.path() / "pose.toml";
 };
 
 TEST_F(SavedPoseFile, ComesBack) {

@@ -40,5 +40,26 @@ TEST(RealDrive, IsTrackedInSequence) {
   EXPECT_LE(result["map"]["bytes"].get<double>(), 96.0 * result["map"]["voxels"].get<double>());
 }
 
+TEST(RealDrive, IsLocatedFromEachScanAlone) {
+  LANDFIX_REAL_DATA(drive, "drive-pandaset-002");
+  const test::TemporaryDirectory folder;
+  const std::string map = folder.path() / "map.ndt";
+  ASSERT_EQ(test::run_landfix({"map", "--pcd", drive / "map.pcd", "--resolution", "1", "--output", map}).code,
+            0);
+  for (const std::string within : {"", "20"}) {
+    std::vector<std::string> words{
+        "locate", "--map", map,     "--scans", drive / "scans", "--truth", drive / "truth.tum",
+        "--leaf", "2",     "--json"};
+    if (!within.empty()) words.insert(words.end(), {"--within", within});
+    const test::Outcome outcome = test::run_landfix(words);
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    const nlohmann::json result = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(result["scans"], 28);
+    EXPECT_GE(result["right"], 27);
+    EXPECT_GE(result["sure"], 25);
+    EXPECT_EQ(result["wrong_and_sure"], 0);
+  }
+}
+
 }  // namespace
 }  // namespace landfix::tools

@@ -72,12 +72,11 @@ TEST(AlignCommand, NamesWhatACorridorDoesNotHold) {
   EXPECT_NE(align(world, seen, false).out.find("not longitudinal (1 sigma"), std::string::npos);
 }
 
-TEST(AlignCommand, EndsWithAnErrorWhereNoPoseIsToBeBelieved) {
+TEST(AlignCommand, SaysWhereNoPoseIsToBeBelieved) {
   const auto far_away = ndt::test::corridor(1, 80000, 200.0, 280.0);
   const auto seen = ndt::test::corridor(2, 3000, -15.0, 15.0);
   const test::Outcome outcome = align(far_away, seen, true);
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_NE(outcome.error.find("does not explain it"), std::string::npos) << outcome.error;
+  EXPECT_EQ(outcome.code, 0) << "it has run";
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["fit"], "none");
 }
 

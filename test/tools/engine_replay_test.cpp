@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,9 @@
 
 #include "platform/candump_log.hpp"
 #include "platform/heap_counter.hpp"
+#include "platform/map_aid_threads.hpp"
 #include "platform/pcap_receiver.hpp"
+#include "platform/place_search.hpp"
 #include "platform/trajectory.hpp"
 #include "support/block_drive.hpp"
 #include "tools/engine_setup.hpp"
@@ -39,12 +42,29 @@ class EngineReplay : public testing::Test {
   [[nodiscard]] static std::string path(const std::string& name) { return drive_->path(name); }
   [[nodiscard]] static const ReplaySetup& setup() { return *setup_; }
 
+  /// In one.
+  [[nodiscard]] static ReplayResult run_plain(const platform::PipelineSettings& settings,
+                                              platform::FrameSink* bus) {
+    platform::PcapSource source(path("capture.pcap"));
+    platform::PlaceSearch search(setup().map());
+    search.prepare();
+    platform::Pipeline pipeline(settings, setup().decoder, setup().map(), bus, {.search = &search});
+    return run_replay(source, pipeline, [&](const platform::SweepResult&) { pipeline.search(); });
+  }
   /// In threads.
   [[nodiscard]] static ReplayResult run(platform::EngineMode mode, double speed, std::uint64_t laps,
                                         platform::FrameSink* bus) {
+    return run(engine_settings(setup(), mode), speed, laps, bus);
+  }
+  [[nodiscard]] static ReplayResult run(const platform::EngineSettings& settings, double speed,
+                                        std::uint64_t laps, platform::FrameSink* bus) {
     platform::PcapReceiver receiver(pcap_settings(setup(), path("capture.pcap"), speed, laps));
-    platform::RunningEngine engine(platform::Engine(engine_settings(setup(), mode), setup().decoder,
-                                                    setup().map(), nullptr, receiver, bus));
+    platform::PlaceSearch search(setup().map());
+    search.prepare();
+    platform::RunningEngine engine(
+        platform::Engine(settings, setup().decoder, setup().map(), {.search = &search}, receiver, bus));
+    const bool is_live = settings.mode != platform::EngineMode::fast_replay;
+    const platform::MapAidThreads searcher({.search = is_live ? &search : nullptr});
     is_locked_ = engine.missing().empty();
     return run_engine(engine, receiver.counters(), true);
   }
@@ -72,11 +92,8 @@ template <class Replay>
 }
 
 TEST_F(EngineReplay, GivesWhatOneThreadGives) {
-  const Written plain = written_by(path("plain.log"), [](platform::FrameSink& bus) {
-    platform::PcapSource source(path("capture.pcap"));
-    platform::Pipeline pipeline(setup().settings, setup().decoder, setup().map(), &bus);
-    return run_replay(source, pipeline, [](const platform::SweepResult&) {});
-  });
+  const Written plain = written_by(
+      path("plain.log"), [](platform::FrameSink& bus) { return run_plain(setup().settings, &bus); });
   ASSERT_GT(plain.log.size(), 10'000U);
   EXPECT_EQ(written_by(path("fast.log"),
                        [](platform::FrameSink& bus) {
@@ -92,6 +109,21 @@ TEST_F(EngineReplay, GivesWhatOneThreadGives) {
   });
   if (is_too_slow) GTEST_SKIP() << "this computer is too slow, or too busy, for a replay at a pace";
   EXPECT_EQ(paced, plain);
+}
+
+TEST_F(EngineReplay, FindsItselfInThreadsAsInOne) {
+  platform::EngineSettings settings = engine_settings(setup(), platform::EngineMode::fast_replay);
+  settings.pipeline.initial_pose.reset();
+  const ReplayResult plain = run_plain(settings.pipeline, nullptr);
+  const std::string trajectory = platform::format_tum(plain.trajectory());
+  EXPECT_EQ(plain.tally.count(ndt::State::init), ndt::PlaceFinder::kSweepsASearch);
+  EXPECT_EQ(platform::format_tum(run(settings, 0.0, 1, nullptr).trajectory()), trajectory);
+  settings.mode = platform::EngineMode::paced_replay;
+  const ReplayResult paced = run(settings, 1.0, 1, nullptr);
+  EXPECT_EQ(paced.heap_calls.value_or(0), 0U);
+  if (paced.packets_dropped + paced.sweeps_skipped + paced.deadline_misses + paced.pipeline.answers_late != 0)
+    GTEST_SKIP() << "this computer is too slow, or too busy, for a replay at a pace";
+  EXPECT_EQ(platform::format_tum(paced.trajectory()), trajectory);
 }
 
 TEST_F(EngineReplay, GoesRoundLapAfterLapInFixedMemoryWithoutALock) {

@@ -162,8 +162,7 @@ TEST_P(GnssDrive, TheProgramSaysSo) {
   EXPECT_GT(report["gnss"]["guesses"], 3);
   const test::Outcome blind = test::run_landfix(
       {"replay", "--config", path("config.toml"), "--pcap", path("capture.pcap"), "--map", path("map.ndt")});
-  EXPECT_EQ(blind.code, 2);
-  EXPECT_THAT(blind.error, testing::HasSubstr("no bus on which GNSS could tell it"));
+  EXPECT_EQ(blind.code, 0) << blind.error << "the map itself is searched";
 }
 
 }  // namespace

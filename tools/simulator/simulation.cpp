@@ -120,15 +120,15 @@ void write_truth(const Drive& drive, const std::filesystem::path& path) {
   platform::write_tum(path, truth);
 }
 
-/// Surveyed twice, since a cloud's header tells how many points follow: a city's would fill the memory.
+/// Point by point: a city's would fill the memory.
 std::size_t write_map(const Drive& drive, const std::filesystem::path& path) {
-  const auto visit = [&drive](const std::function<void(const Eigen::Vector3f&)>& take) {
-    survey(drive.world().surveyed, drive.ground(), drive.route().survey, drive.seed(), take);
-  };
   std::size_t points = 0;
-  visit([&points](const Eigen::Vector3f&) { ++points; });
-  platform::PcdStream cloud(path, platform::kPositionMembers, points);
-  visit([&cloud](const Eigen::Vector3f& point_m) { cloud.write(std::as_bytes(std::span(&point_m, 1))); });
+  platform::PcdStream cloud(path, platform::kPositionMembers);
+  survey(drive.world().surveyed, drive.ground(), drive.route().survey, drive.seed(),
+         [&](const Eigen::Vector3f& point_m) {
+           cloud.write(std::as_bytes(std::span(&point_m, 1)));
+           ++points;
+         });
   cloud.commit();
   return points;
 }
