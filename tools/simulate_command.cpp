@@ -23,6 +23,7 @@ struct SimulateArguments {
   std::string output;
   std::optional<std::uint64_t> seed;
   std::optional<double> length_m;
+  std::uint64_t unit = 0;
   bool scans = false;
   bool json = false;
 };
@@ -32,7 +33,7 @@ std::unique_ptr<simulator::Drive> make_drive(const SimulateArguments& arguments)
     simulator::Route route = simulator::load_route(arguments.route);
     if (arguments.length_m) route = simulator::shortened(std::move(route), *arguments.length_m);
     const std::uint64_t seed = arguments.seed.value_or(route.seed);
-    return std::make_unique<simulator::Drive>(std::move(route), seed, arguments.sensor);
+    return std::make_unique<simulator::Drive>(std::move(route), seed, arguments.sensor, arguments.unit);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
@@ -53,6 +54,7 @@ void simulate(const SimulateArguments& arguments) {
         {"route", drive->route().name},
         {"sensor", arguments.sensor},
         {"seed", drive->seed()},
+        {"unit", drive->unit()},
         {"length_m", summary.length_m},
         {"duration_s", summary.duration_s},
         {"packets", {{"data", summary.data_packets}, {"telemetry", summary.telemetry_packets}}},
@@ -91,6 +93,12 @@ void add_simulate_command(CLI::App& app) {
                    "config.toml, calibration")
       ->required();
   command->add_option("--seed", arguments->seed, "another world and other noise; by default the route's");
+  command
+      ->add_option(
+          "--unit", arguments->unit,
+          "which unit of the sensor, each with errors of its own, which decoders do not know, of where "
+          "its lasers point and how far they measure; 0 has none")
+      ->capture_default_str();
   command->add_option("--length", arguments->length_m,
                       "metres to drive; by default the whole route. A city is surveyed whole");
   command->add_flag("--scans", arguments->scans,

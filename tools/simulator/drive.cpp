@@ -22,8 +22,10 @@ ndt::Pose SensorMounting::pose() const noexcept {
                                      .yaw_rad = ndt::kRadians_per_deg * yaw_deg});
 }
 
-Drive::Drive(Route route, std::uint64_t seed, std::string_view sensor)
+Drive::Drive(Route route, std::uint64_t seed, std::string_view sensor, std::uint64_t unit)
     : lidar_(make_lidar_model(sensor)),
+      unit_(unit),
+      laser_errors_(laser_errors(lidar_->traits(), unit)),
       route_(std::move(route)),
       seed_(seed),
       path_(route_),
@@ -53,7 +55,8 @@ std::vector<Echo> Drive::fire(std::size_t packet, const VehicleAt& vehicle_at) c
   const auto sensor_at = [&](double after_s) -> ndt::Pose {
     return vehicle_at(start_s + after_s) * mounting;
   };
-  return fire_packet(scene_, *lidar_, sensor_at, cars, utc_ns, packet, {.seed = seed_});
+  return fire_packet(scene_, *lidar_, sensor_at, cars, utc_ns, packet,
+                     {.seed = seed_, .lasers = laser_errors_});
 }
 
 std::vector<Echo> Drive::fire(std::size_t packet) const {

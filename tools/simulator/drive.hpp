@@ -21,14 +21,15 @@ namespace landfix::tools::simulator {
 /// the same drive.
 class Drive {
  public:
-  /// `sensor`: see make_lidar_model, whose errors these are too.
-  Drive(Route route, std::uint64_t seed, std::string_view sensor = "vlp16");
+  /// `sensor`: see make_lidar_model, whose errors these are too; `unit`: of it, see laser_errors.
+  Drive(Route route, std::uint64_t seed, std::string_view sensor = "vlp16", std::uint64_t unit = 0);
   Drive(const Drive&) = delete;
   Drive& operator=(const Drive&) = delete;
   ~Drive() = default;
 
   [[nodiscard]] const Route& route() const noexcept { return route_; }
   [[nodiscard]] std::uint64_t seed() const noexcept { return seed_; }
+  [[nodiscard]] std::uint64_t unit() const noexcept { return unit_; }
   [[nodiscard]] const Ground& ground() const noexcept { return ground_; }
   [[nodiscard]] const World& world() const noexcept { return world_; }
   /// The standing world, as light meets it.
@@ -49,6 +50,8 @@ class Drive {
   [[nodiscard]] std::vector<Echo> fire(std::size_t packet, const VehicleAt& vehicle_at) const;
 
   std::unique_ptr<LidarModel> lidar_;
+  std::uint64_t unit_;
+  LaserErrors laser_errors_;
   Route route_;
   std::uint64_t seed_;
   Path path_;

@@ -120,7 +120,8 @@ class Hdl64Model final : public LidarModel {
                   .azimuth_deg = azimuth_deg,
                   .elevation_deg = 0.01 * laser.elevation_centideg,
                   .origin_m = {left_m * std::sin(azimuth_rad), left_m * std::cos(azimuth_rad),
-                               1e-3 * laser.height_mm}};
+                               1e-3 * laser.height_mm},
+                  .laser = laser_of(block, slot)};
     }
   }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ndt/pose.hpp"
+#include "tools/simulator/laser_errors.hpp"
 #include "tools/simulator/lidar_model.hpp"
 #include "tools/simulator/scene.hpp"
 
@@ -17,6 +18,7 @@ struct LidarNoise {
   std::uint64_t seed = 0;
   bool range = true;  ///< the model's
   bool dropouts = true;
+  LaserErrors lasers{};
 };
 
 /// The echoes of one packet. `sensor_at(time after the packet's moment [s])` gives `map <- sensor`; `cars`
@@ -40,14 +42,17 @@ std::vector<Echo> fire_packet(const Scene& scene, const LidarModel& lidar, const
   lidar.aim(utc_ns, shots);
   std::vector<Echo> echoes;
   echoes.reserve(shots.size());
-  for (const Shot& shot : shots) {
+  for (Shot& shot : shots) {
+    const LaserError& error = noise.lasers[shot.laser];
+    shot.elevation_deg += error.elevation_deg;
     const double after_s = 1e-9 * static_cast<double>(shot.after_ns);
     const ndt::Pose sensor = sensor_at(after_s);
     const Ray ray{.origin_m = sensor * shot.origin_m,
                   .direction = sensor.linear() * shot.direction(),
                   .reach_m = traits.max_range_m};
-    echoes.push_back(
-        measure(scene.cast(ray, cars, after_s), traits, packet * shots.size() + echoes.size(), noise));
+    std::optional<Hit> hit = scene.cast(ray, cars, after_s);
+    if (hit) hit->range_m += error.range_m;
+    echoes.push_back(measure(hit, traits, packet * shots.size() + echoes.size(), noise));
   }
   return echoes;
 }

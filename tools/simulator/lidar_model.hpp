@@ -23,9 +23,12 @@ struct Shot {
   double azimuth_deg = 0.0;   ///< where it points, clockwise from the front, offsets and rotation included
   double elevation_deg = 0.0;
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();  ///< where it starts
+  std::size_t laser = 0;                               ///< of the sensor, less than kMostLasers
 
   [[nodiscard]] Eigen::Vector3d direction() const noexcept;
 };
+
+inline constexpr std::size_t kMostLasers = 128;
 
 /// What comes back of a shot, as exactly as the sensor knows it: the wire's resolution is for the encoder.
 struct Echo {
@@ -41,7 +44,8 @@ struct LidarTraits {
   std::size_t shots_per_packet = 0;
   double min_range_m = 0.0;
   double max_range_m = 0.0;
-  double range_sigma_m = 0.0;  ///< noise, one standard deviation
+  double range_sigma_m = 0.0;         ///< noise, one standard deviation; as much differ the lasers of a unit
+  double elevation_sigma_deg = 0.01;  ///< by which the lasers of a unit differ from what is said of them
 };
 
 /// What the GPS receiver at the sensor says.

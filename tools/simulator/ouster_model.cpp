@@ -44,7 +44,8 @@ class OusterModel final : public LidarModel {
             .after_ns = static_cast<std::int64_t>(k) * column_ns(),
             .azimuth_deg = std::fmod(180.0 + 360.0 * turn + beams_[i].azimuth_deg + 360.0, 360.0),
             .elevation_deg = beams_[i].altitude_deg,
-            .origin_m = origin_m};
+            .origin_m = origin_m,
+            .laser = i};
       }
     }
   }

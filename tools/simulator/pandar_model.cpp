@@ -72,7 +72,8 @@ class PandarModel final : public LidarModel {
                   .azimuth_deg = rotor_deg + channel.azimuth_offset_deg,
                   .elevation_deg = channel.elevation_deg,
                   .origin_m = {kCentreForward_m * cosine + kCentreLeft_m * sine,
-                               kCentreLeft_m * cosine - kCentreForward_m * sine, 0.0}};
+                               kCentreLeft_m * cosine - kCentreForward_m * sine, 0.0},
+                  .laser = i % unit_.size()};
     }
   }
 

@@ -10,7 +10,16 @@
 namespace landfix::tools::simulator {
 
 /// What a number is drawn for; streams of one seed are independent of each other.
-enum class RandomStream : std::uint64_t { world = 1, range_noise, dropout, network, survey, odometry, gnss };
+enum class RandomStream : std::uint64_t {
+  world = 1,
+  range_noise,
+  dropout,
+  network,
+  survey,
+  odometry,
+  gnss,
+  unit,
+};
 
 [[nodiscard]] constexpr std::uint64_t mix_bits(std::uint64_t bits) noexcept {
   bits += 0x9E3779B97F4A7C15;

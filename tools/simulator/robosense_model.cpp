@@ -98,7 +98,8 @@ class RobosenseModel final : public LidarModel {
                   .azimuth_deg = rotor_deg + unit_.angles[laser].horizontal * unit_.angle_unit_deg,
                   .elevation_deg = unit_.angles[laser].vertical * unit_.angle_unit_deg,
                   .origin_m = {unit_.lens_forward_m * std::cos(rotor_rad),
-                               -unit_.lens_forward_m * std::sin(rotor_rad), 0.0}};
+                               -unit_.lens_forward_m * std::sin(rotor_rad), 0.0},
+                  .laser = laser};
     }
   }
 

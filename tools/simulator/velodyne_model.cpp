@@ -30,7 +30,8 @@ constexpr LidarTraits traits(std::string_view name, std::int64_t packet_ns, doub
           .shots_per_packet = kShotsPerPacket,
           .min_range_m = min_range_m,
           .max_range_m = max_range_m,
-          .range_sigma_m = range_sigma_m};
+          .range_sigma_m = range_sigma_m,
+          .elevation_sigma_deg = velodyne::kElevationSigma_deg};
 }
 
 /// In the order of VelodyneSensor. Accuracies are the data sheets' +-2 cm (HDL-32E) and +-3 cm, read as 3
@@ -82,7 +83,8 @@ class VelodyneModel final : public LidarModel {
       shots[i] = {.after_ns = after_ns,
                   .azimuth_deg = rotor_angle_deg(utc_ns + after_ns) + laser.azimuth_offset_deg,
                   .elevation_deg = laser.elevation_deg,
-                  .origin_m = {0.0, 0.0, 1e-3 * laser.vertical_offset_mm}};
+                  .origin_m = {0.0, 0.0, 1e-3 * laser.vertical_offset_mm},
+                  .laser = i % count};
     }
   }
 

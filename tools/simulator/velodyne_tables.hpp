@@ -7,6 +7,10 @@
 
 namespace landfix::tools::simulator::velodyne {
 
+/// Of these nothing comes with a unit. Makers whose units come with their angles give away how far those are
+/// from the model's: up to 0.07 deg (RoboSense) or 0.13 deg (Hesai).
+inline constexpr double kElevationSigma_deg = 0.04;
+
 struct Laser {
   double elevation_deg;
   double azimuth_offset_deg;        ///< clockwise

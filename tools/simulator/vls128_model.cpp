@@ -29,7 +29,8 @@ constexpr LidarTraits traits(std::string_view name) noexcept {
           .shots_per_packet = kSequences * kLasers,
           .min_range_m = 1.0,
           .max_range_m = 245.0,
-          .range_sigma_m = 0.01};  // the data sheet's +-3 cm, read as 3 sigma
+          .range_sigma_m = 0.01,  // the data sheet's +-3 cm, read as 3 sigma
+          .elevation_sigma_deg = velodyne::kElevationSigma_deg};
 }
 constexpr LidarTraits kVls128Traits = traits("vls128");
 constexpr LidarTraits kAlphaPrimeTraits = traits("vls128ap");
@@ -55,7 +56,8 @@ class Vls128Model final : public LidarModel {
       shots[i] = {
           .after_ns = after_ns,
           .azimuth_deg = rotor_angle_deg(utc_ns + after_ns) + velodyne::kVls128[id].azimuth_offset_deg,
-          .elevation_deg = velodyne::kVls128[id].elevation_deg};
+          .elevation_deg = velodyne::kVls128[id].elevation_deg,
+          .laser = id};
     }
   }
 

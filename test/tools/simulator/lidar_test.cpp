@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -145,6 +147,59 @@ TEST(Lidar, StaysWithinTheSensorsRange) {
       EXPECT_TRUE(measured_m == 0.0 || (measured_m >= 0.5 && measured_m <= 100.0)) << measured_m;
     }
   }
+}
+
+TEST(Lidar, ALaserOfAUnitPointsAndMeasuresAsWrongAsItsErrorSays) {
+  const Scene scene = scene_of(wall_at(40.0));
+  const auto at_rest = [](double /*after_s*/) { return ndt::Pose(ndt::Pose::Identity()); };
+  LidarNoise noise = kNoNoise;
+  noise.lasers[3] = {.elevation_deg = 0.5, .range_m = -0.25};
+  const std::int64_t ahead_ns = 1'777'882'500'000'000'000;
+  const auto right = fire_packet(scene, *kVlp16, at_rest, {}, ahead_ns, 0, kNoNoise);
+  const auto wrong = fire_packet(scene, *kVlp16, at_rest, {}, ahead_ns, 0, noise);
+  // Laser 3 points 3 deg up.
+  const double longer = std::cos(3.0 * kDegree_rad) / std::cos(3.5 * kDegree_rad);
+  for (std::size_t i = 0; i < right.size(); ++i) {
+    const double expected_m = i % 16 == 3 ? right[i].range_m * longer - 0.25 : right[i].range_m;
+    ASSERT_NEAR(wrong[i].range_m, expected_m, 2e-4) << i;
+  }
+}
+
+TEST(Lidar, EveryLaserOfEverySensorHasItsOwnNumber) {
+  for (const std::string_view name : lidar_model_names()) {
+    const auto lidar = make_lidar_model(name);
+    std::vector<Shot> shots(lidar->traits().shots_per_packet);
+    lidar->aim(1'777'882'500'000'000'000, shots);
+    std::map<std::size_t, double> elevations_deg;
+    for (const Shot& shot : shots) {
+      ASSERT_LT(shot.laser, kMostLasers) << name;
+      const auto [known, is_new] = elevations_deg.emplace(shot.laser, shot.elevation_deg);
+      ASSERT_EQ(known->second, shot.elevation_deg) << name << ", laser " << shot.laser;
+    }
+    EXPECT_EQ(shots.size() % elevations_deg.size(), 0) << name;
+    EXPECT_GE(elevations_deg.size(), 16) << name;
+  }
+}
+
+TEST(Lidar, UnitsDifferAsMuchAsTheTraitsSayAndTheIdealOneDoesNot) {
+  const LidarTraits& traits = kVlp16->traits();
+  for (const LaserError& error : laser_errors(traits, 0)) {
+    EXPECT_EQ(error.elevation_deg, 0.0);
+    EXPECT_EQ(error.range_m, 0.0);
+  }
+  double elevations = 0.0;
+  double ranges = 0.0;
+  constexpr int kUnits = 50;
+  for (int unit = 1; unit <= kUnits; ++unit) {
+    for (const LaserError& error : laser_errors(traits, static_cast<std::uint64_t>(unit))) {
+      elevations += std::pow(error.elevation_deg / traits.elevation_sigma_deg, 2);
+      ranges += std::pow(error.range_m / traits.range_sigma_m, 2);
+    }
+  }
+  constexpr double kLasers = kUnits * static_cast<double>(kMostLasers);
+  EXPECT_NEAR(elevations / kLasers, 1.0, 0.1);
+  EXPECT_NEAR(ranges / kLasers, 1.0, 0.1);
+  EXPECT_NE(laser_errors(traits, 1)[0].range_m, laser_errors(traits, 2)[0].range_m);
 }
 
 }  // namespace
