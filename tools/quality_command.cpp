@@ -51,13 +51,11 @@ void write_results(const QualityArguments& arguments, const QualityResult& resul
 void measure_quality(QualityArguments arguments) {
   const auto began = std::chrono::steady_clock::now();
   arguments.settings.keep_points = !arguments.cloud.empty() || !arguments.picture.empty();
-  std::vector<Eigen::Vector3f> points_m;
-  visit_clouds(list_clouds_once(arguments.clouds),
-               [&](const Eigen::Vector3d& point_m) { points_m.emplace_back(point_m.cast<float>()); });
-  if (points_m.empty()) throw std::runtime_error("no point in the clouds: there is nothing to measure");
+  QualityCloud cloud = load_quality_cloud(list_clouds_once(arguments.clouds), arguments.settings);
+  if (cloud.points_m.empty()) throw std::runtime_error("no point in the clouds: there is nothing to measure");
   show_progress("ordering the points");
-  const ndt::NeighbourTree tree(std::move(points_m));
-  const QualityResult result = judge_map(tree, arguments.settings, [](double share) {
+  const ndt::NeighbourTree tree(std::move(cloud.points_m));
+  const QualityResult result = judge_map(tree, cloud.chosen, arguments.settings, [](double share) {
     show_progress(fmt::format("looking at the points: {:.0f} %", 100.0 * share));
   });
   show_progress("");
@@ -71,7 +69,7 @@ void measure_quality(QualityArguments arguments) {
                                 {"mpv", quality.mean_plane_variance_m()},
                                 {"radius_m", arguments.settings.radius_m},
                                 {"skipped", quality.skipped},
-                                {"cloud_points", tree.points_m().size()},
+                                {"cloud_points", cloud.cloud_points},
                                 {"seconds", seconds}};
     fmt::print("{}\n", object.dump(2));
     return;
@@ -79,7 +77,7 @@ void measure_quality(QualityArguments arguments) {
   fmt::print("mean map entropy     {:.6f}\nmean plane variance  {:.6f} m\n", quality.mean_map_entropy(),
              quality.mean_plane_variance_m());
   fmt::print("of {} points of {}, within {} m; {} skipped, with fewer than {} neighbours or all in a plane\n",
-             quality.points, tree.points_m().size(), arguments.settings.radius_m, quality.skipped,
+             quality.points, cloud.cloud_points, arguments.settings.radius_m, quality.skipped,
              ndt::QualityProbe::kLeastNeighbours);
 }
 
