@@ -47,6 +47,12 @@ void AtomicFile::overwrite_start(std::string_view text) {
   if (std::fseek(file_, 0, SEEK_END) != 0) fail(path_, "write");
 }
 
+void write_file(const std::filesystem::path& path, std::string_view text) {
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
 void AtomicFile::commit() {
   if (std::fflush(file_) != 0 || ::fsync(::fileno(file_)) != 0) fail(path_, "write");
   const int closed = std::fclose(std::exchange(file_, nullptr));

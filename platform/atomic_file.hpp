@@ -41,4 +41,7 @@ class AtomicFile {
 /// The whole file. Throws std::runtime_error with the path and the reason.
 [[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& path);
 
+/// All of a file at once.
+void write_file(const std::filesystem::path& path, std::string_view text);
+
 }  // namespace landfix::platform

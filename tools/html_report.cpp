@@ -15,6 +15,7 @@
 
 #include "platform/evaluation.hpp"
 #include "platform/hgrm.hpp"
+#include "tools/html_page.hpp"
 #include "tools/latency_chart.hpp"
 #include "tools/latency_table.hpp"
 #include "tools/strip_chart.hpp"
@@ -24,77 +25,6 @@ namespace landfix::tools {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-constexpr std::string_view kStyle = R"css(
-:root{--page:#f5f4f1;--card:#fff;--text:#22211e;--soft:#6d6a63;--line:#dddad2;--accent:#2b6cb0;--good:#1f7a54;--bad:#b3261e;color-scheme:light dark}
-@media (prefers-color-scheme:dark){:root{--page:#191918;--card:#232321;--text:#e9e7e1;--soft:#a29f97;--line:#3b3a36;--accent:#7db4ea;--good:#5cc497;--bad:#f0776c}}
-*{box-sizing:border-box}
-body{margin:0;background:var(--page);color:var(--text);font:15px/1.5 system-ui,"Segoe UI",Roboto,"DejaVu Sans",sans-serif}
-main{max-width:1120px;margin:0 auto;padding:20px 16px 48px}
-h1{font-size:24px;line-height:1.25;margin:8px 0 2px;overflow-wrap:anywhere}
-h2{font-size:17px;margin:0 0 10px}
-.soft{color:var(--soft);margin:0 0 18px;overflow-wrap:anywhere}
-section{background:var(--card);border:1px solid var(--line);border-radius:10px;padding:16px;margin:0 0 16px}
-.tiles{display:grid;grid-template-columns:repeat(auto-fill,minmax(148px,1fr));gap:10px;margin:0 0 16px}
-.tile{background:var(--card);border:1px solid var(--line);border-radius:10px;padding:10px 14px}
-.tile b{display:block;font-size:22px;line-height:1.3;font-weight:650;font-variant-numeric:tabular-nums;white-space:nowrap}
-.tile span{color:var(--soft);font-size:13px}
-.tile.good b,.good{color:var(--good)}
-.tile.bad b,.bad{color:var(--bad)}
-.scroll{overflow-x:auto}
-.scroll svg{display:block;width:100%;height:auto;min-width:560px}
-.map svg{border-radius:6px}
-.chart{fill:currentColor;font-size:12px}
-.chart text{fill:var(--soft)}
-.chart .strip{fill:var(--text);font-size:13px}
-.chart .grid{stroke:var(--line);fill:none}
-.chart .line{stroke:var(--accent);stroke-width:1.3;fill:none;stroke-linejoin:round}
-.chart .bars{fill:var(--accent);fill-opacity:.75}
-.chart .p50,.chart .p99,.chart .max{stroke-width:2;fill:none}
-.chart .p50{stroke:var(--good)}
-.chart .p99{stroke:#d98a1f}
-.chart .max{stroke:var(--bad)}
-.key{display:flex;flex-wrap:wrap;gap:4px 16px;margin:0 0 8px;color:var(--soft);font-size:13px}
-.key i{display:inline-block;width:12px;height:12px;border-radius:3px;margin-right:6px;vertical-align:-1px}
-table{border-collapse:collapse;font-variant-numeric:tabular-nums}
-th,td{padding:4px 14px 4px 0;text-align:right;white-space:nowrap;border-bottom:1px solid var(--line)}
-th{color:var(--soft);font-weight:500}
-th:first-child,td:first-child{text-align:left}
-pre{margin:8px 0 0;white-space:pre-wrap;overflow-wrap:anywhere;font:12.5px/1.45 ui-monospace,"DejaVu Sans Mono",monospace}
-summary{cursor:pointer}
-.columns{display:grid;grid-template-columns:repeat(auto-fit,minmax(260px,1fr));gap:0 32px}
-)css";
-
-[[nodiscard]] std::string html_of(std::string_view text) {
-  std::string safe;
-  for (const char character : text) {
-    switch (character) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += character;
-    }
-  }
-  return safe;
-}
-
-enum class Mood : std::uint8_t { plain, good, bad };
-
-[[nodiscard]] std::string tile(const std::string& value, std::string_view what, Mood mood = Mood::plain) {
-  constexpr std::array<std::string_view, 3> kClasses{"", " good", " bad"};
-  return fmt::format("<div class=\"tile{}\"><b>{}</b><span>{}</span></div>\n",
-                     kClasses[static_cast<std::size_t>(mood)], value, what);
-}
 
 [[nodiscard]] std::string zero_is_good(std::uint64_t count, std::string_view what) {
   return tile(fmt::format("{}", count), what, count == 0 ? Mood::good : Mood::bad);
@@ -252,12 +182,9 @@ std::string to_html(const HtmlReport& report) {
   const ReplayResult& result = report.replay.result;
   const nlohmann::ordered_json json = to_json(report.replay);
   const std::vector<platform::LatencyDistribution> stages = distributions_of(result);
-  std::string page = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>\n"
-      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"/>\n"
-      "<title>landfix replay: {0}</title>\n<style>{1}</style></head>\n<body><main>\n<h1>Replay of {0}</h1>\n"
-      "<p class=\"soft\">{2}, against {3}</p>\n",
-      html_of(report.capture), kStyle, html_of(report.sensor), html_of(report.map));
+  std::string page =
+      html_head("Replay of " + report.capture) +
+      fmt::format("<p class=\"soft\">{}, against {}</p>\n", html_of(report.sensor), html_of(report.map));
   page += tiles_of(report, stages);
   page += "<section><h2>Trajectory over the map</h2>\n<div class=\"scroll map\">" +
           trajectory_svg(report.map_points_m, result.trajectory(), report.truth) + "</div></section>\n";
@@ -269,10 +196,9 @@ std::string to_html(const HtmlReport& report) {
           "</table></div></section>\n";
   page += fmt::format(
       "<section><h2>How it was made</h2>\n<p class=\"soft\">landfix {}</p>\n<pre>{}</pre>\n"
-      "<details><summary>All figures, as --json prints them</summary>\n<pre>{}</pre></details></section>\n"
-      "</main></body></html>\n",
+      "<details><summary>All figures, as --json prints them</summary>\n<pre>{}</pre></details></section>\n",
       html_of(report.version), html_of(report.command), html_of(json.dump(2)));
-  return page;
+  return page + std::string(kHtmlTail);
 }
 
 }  // namespace landfix::tools

@@ -21,6 +21,7 @@ constexpr std::array kTable{
     add_quality_command,    //
     add_evaluate_command,   //
     add_simulate_command,   //
+    add_study_command,      //
     add_doctor_command,     //
 };
 

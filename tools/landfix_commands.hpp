@@ -22,6 +22,7 @@ void add_can_command(CLI::App& app);
 void add_quality_command(CLI::App& app);
 void add_evaluate_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
+void add_study_command(CLI::App& app);
 void add_doctor_command(CLI::App& app);
 
 extern const std::span<const AddCommand> kCommands;

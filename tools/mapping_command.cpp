@@ -32,19 +32,8 @@ struct MappingArguments {
   bool json = false;
 };
 
-/// The reference study's, which undid no distortion and made voxels of whatever points lay in them.
-[[nodiscard]] MappingSettings study_settings() {
-  MappingSettings settings;
-  settings.mapper.resolution_m = 1.0;
-  settings.mapper.add_after_m = 1.0;
-  settings.mapper.source = ndt::PointSource::survey;
-  settings.filter.leaf_m = 2.0;
-  settings.deskew = false;
-  return settings;
-}
-
 [[nodiscard]] MappingSettings settings_of(const MappingArguments& arguments) {
-  MappingSettings settings = arguments.study_settings ? study_settings() : arguments.settings;
+  MappingSettings settings = arguments.study_settings ? study_mapping() : arguments.settings;
   settings.sensor_pose = arguments.sensor_pose.value_or(ndt::Pose::Identity());
   settings.first_pose = arguments.first_pose.value_or(ndt::Pose::Identity());
   return settings;

@@ -32,6 +32,16 @@ constexpr std::string_view kMetricsHeader =
 
 }  // namespace
 
+MappingSettings study_mapping() {
+  MappingSettings settings;
+  settings.mapper.resolution_m = 1.0;
+  settings.mapper.add_after_m = 1.0;
+  settings.mapper.source = ndt::PointSource::survey;
+  settings.filter.leaf_m = 2.0;
+  settings.deskew = false;
+  return settings;
+}
+
 MappingRun::MappingRun(const MappingSettings& settings, const std::filesystem::path& folder)
     : settings_(settings),
       folder_(folder),

@@ -30,6 +30,9 @@ struct MappingSettings {
   ndt::Pose first_pose = ndt::Pose::Identity();   ///< map <- vehicle
 };
 
+/// The reference study's, which undid no distortion and made voxels of whatever points lay in them.
+[[nodiscard]] MappingSettings study_mapping();
+
 /// What was found of one sweep.
 struct MappedSweep {
   ndt::StampedPose at;

@@ -151,6 +151,7 @@ Eigen::Vector3d ReplaySetup::start_m() const {
 
 ReplaySetup prepare_replay(const ReplayInput& input) {
   platform::Configuration configuration = platform::read_configuration(input.config);
+  if (input.adjust) input.adjust(configuration);
   const drivers::SensorModel& model = find_sensor(configuration.sensor.model);
   const platform::PipelineSettings settings = settings_for(configuration, model, input);
   const drivers::AnyDecoder decoder = decoder_for(model, configuration.sensor);

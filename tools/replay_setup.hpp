@@ -29,6 +29,7 @@ struct ReplayInput {
   /// The pose to go on from in place of both, by the map's checksum; nothing: none.
   std::function<std::optional<ndt::Pose>(const platform::Configuration&, std::uint32_t)> last_pose{};
   bool deskew = true;
+  std::function<void(platform::Configuration&)> adjust{};  ///< the configuration, before it is used
 };
 
 struct ReplaySetup {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "tools/line_path.hpp"
 #include "tools/svg.hpp"
 
 namespace landfix::tools {
@@ -81,34 +82,19 @@ void add_states(Svg& svg, const StripChart& chart, const TimeAxis& axis) {
   svg.add("</g>");
 }
 
-/// The least and the greatest value of each half pixel, joined by a line that breaks where values are
-/// missing.
 [[nodiscard]] std::string path_of(const StripChart& chart, const StripChart::Strip& strip,
                                   const TimeAxis& axis, double top, double limit) {
-  constexpr double kStep_pixels = 0.5;
   constexpr double kGap_pixels = 6.0;  // or ten values
-  const auto y = [&](double value) {
-    return top + kStripHeight * (1.0 - std::clamp(value / limit, 0.0, 1.0));
-  };
-  const double longest_gap =
-      std::max(kGap_pixels, 10.0 * kPlotWidth / static_cast<double>(chart.times_s.size() + 1));
-  std::string path;
-  double last_x = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < chart.times_s.size();) {
-    const double x = axis.x(chart.times_s[i]);
-    double least = std::numeric_limits<double>::infinity();
-    double greatest = -least;
-    for (; i < chart.times_s.size() && axis.x(chart.times_s[i]) <= x + kStep_pixels; ++i) {
-      if (!std::isfinite(strip.values[i])) continue;
-      least = std::min(least, strip.values[i]);
-      greatest = std::max(greatest, strip.values[i]);
-    }
-    if (greatest < least) continue;
-    path += fmt::format("{}{:.1f} {:.1f}", x - last_x > longest_gap ? 'M' : 'L', x, y(least));
-    if (greatest > least) path += fmt::format("V{:.1f}", y(greatest));
-    last_x = x;
+  constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> xs;
+  std::vector<double> ys;
+  for (std::size_t i = 0; i < chart.times_s.size(); ++i) {
+    xs.push_back(axis.x(chart.times_s[i]));
+    const double shown = std::clamp(strip.values[i], 0.0, limit);
+    // What is not finite is none.
+    ys.push_back(top + kStripHeight * (1.0 - (std::isfinite(strip.values[i]) ? shown / limit : kNoValue)));
   }
-  return path;
+  return line_path(xs, ys, std::max(kGap_pixels, 10.0 * kPlotWidth / static_cast<double>(xs.size() + 1)));
 }
 
 void add_strip(Svg& svg, const StripChart& chart, std::size_t number, const TimeAxis& axis) {

@@ -6,7 +6,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -133,12 +132,6 @@ std::size_t write_map(const Drive& drive, const std::filesystem::path& path) {
   return points;
 }
 
-void write_text(const std::filesystem::path& path, std::string_view text) {
-  platform::AtomicFile file(path);
-  file.write(text);
-  file.commit();
-}
-
 void write_config(const Drive& drive, const std::filesystem::path& path) {
   const SensorMounting& mounting = kSensorMounting;
   const ndt::Pose start = drive.vehicle().pose_at(0.0);
@@ -147,14 +140,15 @@ void write_config(const Drive& drive, const std::filesystem::path& path) {
   const std::optional<CalibrationFile> calibration = drive.lidar().calibration();
   platform::AtomicFile file(path);
   file.write(fmt::format(
-      "# The simulated drive of route {}, seed {}. Build map.ndt from map.pcd with `landfix map`.\n"
+      "# The simulated drive of route {}, seed {}, unit {} of its sensor. Build map.ndt from map.pcd with "
+      "`landfix map`.\n"
       "[sensor]\nmodel = \"{}\"\nport = {}\n{}\n"
       "[vehicle]\nsensor_pose = [{:.3f}, {:.3f}, {:.3f}, {:.3f}, {:.3f}, {:.3f}]\n\n"
       "[map]\nfile = \"map.ndt\"\nprojector = \"map_projector_info.yaml\"\n\n"
       "# Where the vehicle stands when the capture begins.\n"
       "[initial_pose]\npose = [{:.3f}, {:.3f}, {:.3f}, {:.3f}, {:.3f}, {:.3f}]\n\n"
       "[filter]\nleaf_m = {:.1f}\n\n[matcher]\nresolution_m = {:.1f}\nmax_iterations = 50\n\n{}\n{}",
-      drive.route().name, drive.seed(), lidar.name, lidar.data_port,
+      drive.route().name, drive.seed(), drive.unit(), lidar.name, lidar.data_port,
       calibration ? fmt::format("calibration = \"{}\"\n", calibration->name) : "", mounting.position_m.x(),
       mounting.position_m.y(), mounting.position_m.z(), mounting.roll_deg, mounting.pitch_deg,
       mounting.yaw_deg, start.translation().x(), start.translation().y(), start.translation().z(),
@@ -174,9 +168,9 @@ SimulationSummary write_drive(const Drive& drive, const std::filesystem::path& f
   write_odometry_log(drive, folder / "odometry.log");
   summary.map_points = write_map(drive, folder / "map.pcd");
   write_config(drive, folder / "config.toml");
-  write_text(folder / "map_projector_info.yaml", projector_info());
+  platform::write_file(folder / "map_projector_info.yaml", projector_info());
   if (const auto calibration = drive.lidar().calibration())
-    write_text(folder / calibration->name, calibration->text);
+    platform::write_file(folder / calibration->name, calibration->text);
   return summary;
 }
 
