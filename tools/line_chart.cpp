@@ -61,7 +61,7 @@ struct Axis {
 void add_grid(Svg& svg, const LineChart& chart, const Axis& x_axis, const Axis& y_axis) {
   // Half a step more, so that rounding loses no line.
   for (double y = y_axis.low; y < y_axis.high + 0.5 * y_axis.step; y += y_axis.step) {
-    const double clean = y_axis.step * std::round(y / y_axis.step);
+    const double clean = y_axis.step * std::round(y / y_axis.step) + 0.0;  // of -0, 0
     svg.add(R"(<path d="M{} {:.1f}H{}" class="grid"/>)", kPlotLeft, y_of(y_axis, y),
             kChartWidth - kPlotRight);
     svg.add(R"(<text x="{}" y="{:.1f}" text-anchor="end">{:g}</text>)", kPlotLeft - 6.0,

@@ -35,7 +35,8 @@ void Truth::compare(const platform::StampedPose& estimate, double iterations, Al
   const auto next = static_cast<std::size_t>(std::distance(poses_.begin(), after));
   const double turn_rad = ndt::to_roll_pitch_yaw(estimate.pose.linear()).yaw_rad -
                           ndt::to_roll_pitch_yaw(truth->linear()).yaw_rad;
-  along.way_m.push_back(way_m_[next] - (poses_[next].pose.translation() - truth->translation()).norm());
+  const double left_m = (poses_[next].pose.translation() - truth->translation()).norm();
+  along.way_m.push_back(std::max(0.0, way_m_[next] - left_m));
   along.elevation_m.push_back(estimate.pose.translation().z());
   along.true_elevation_m.push_back(truth->translation().z());
   along.position_error_m.push_back((estimate.pose.translation() - truth->translation()).norm());
