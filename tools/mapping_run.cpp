@@ -112,9 +112,7 @@ void MappingRun::finish() {
     metrics += row_of(sweep);
   }
   platform::write_tum(folder_ / "trajectory.tum", trajectory);
-  platform::AtomicFile file(folder_ / "metrics.csv");
-  file.write(metrics);
-  file.commit();
+  platform::write_file(folder_ / "metrics.csv", metrics);
 }
 
 }  // namespace landfix::tools

@@ -42,10 +42,7 @@ constexpr std::array kJudgedMembers = {
 void write_results(const QualityArguments& arguments, const QualityResult& result) {
   if (!arguments.cloud.empty())
     platform::write_pcd<JudgedPoint>(arguments.cloud, kJudgedMembers, result.points);
-  if (arguments.picture.empty()) return;
-  platform::AtomicFile file(arguments.picture);
-  file.write(quality_svg(result.points));
-  file.commit();
+  if (!arguments.picture.empty()) platform::write_file(arguments.picture, quality_svg(result.points));
 }
 
 void measure_quality(QualityArguments arguments) {

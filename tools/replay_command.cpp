@@ -62,9 +62,7 @@ struct ReplayArguments {
 
 void write_svg(const ReplayArguments& arguments, const ndt::VoxelMap& map,
                const std::vector<ndt::StampedPose>& trajectory, const std::vector<ndt::StampedPose>& truth) {
-  platform::AtomicFile file(arguments.svg);
-  file.write(trajectory_svg(voxel_means(map), trajectory, truth));
-  file.commit();
+  platform::write_file(arguments.svg, trajectory_svg(voxel_means(map), trajectory, truth));
 }
 
 void write_html(const ReplayArguments& arguments, const ReplaySetup& setup, const ReplayReport& replay,
@@ -79,9 +77,7 @@ void write_html(const ReplayArguments& arguments, const ReplaySetup& setup, cons
       .map = (arguments.input.map.empty() ? setup.configuration.map.file : arguments.input.map).string(),
       .command = arguments.command,
       .version = LANDFIX_VERSION};
-  platform::AtomicFile file(arguments.report);
-  file.write(to_html(report));
-  file.commit();
+  platform::write_file(arguments.report, to_html(report));
 }
 
 /// What counts in the end by the name that was asked for, the stages that lead there beside it.
@@ -93,9 +89,8 @@ void write_latencies(const std::filesystem::path& path, const ReplayResult& resu
     const auto stage = static_cast<platform::Stage>(i);
     const platform::LatencyHistogram& durations = result.duration(stage);
     if (durations.count() == 0 && stage != whole) continue;  // not of this kind of replay
-    platform::AtomicFile file(stage == whole ? path : platform::hgrm_of_stage(path, to_string(stage)));
-    file.write(to_hgrm(platform::distribution_of(durations, to_string(stage))));
-    file.commit();
+    platform::write_file(stage == whole ? path : platform::hgrm_of_stage(path, to_string(stage)),
+                         to_hgrm(platform::distribution_of(durations, to_string(stage))));
   }
 }
 
