@@ -40,7 +40,8 @@ TEST_F(WorldTest, HasCarsParkedThatAreNotSurveyed) {
   // Between ground clearance and waist only cars stand in the parking lane: nothing surveyed may be near
   // them.
   std::size_t looked_at = 0;
-  for (const Eigen::Vector3f& point_m : points_m) {
+  for (std::size_t p = 0; p < points_m.size(); p += 7) {
+    const Eigen::Vector3f& point_m = points_m[p];
     const Eigen::Vector2d xy_m = point_m.head<2>().cast<double>();
     const double above_m = static_cast<double>(point_m.z()) - drive_.ground().height_m(xy_m);
     if (above_m < 0.35 || above_m > 1.0) continue;
