@@ -27,9 +27,11 @@ map_and_replay other "$@"
 cmp "$folder/native.ndt" "$folder/other.ndt"
 "$native" evaluate --reference "$folder/native.tum" --estimate "$folder/other.tum" --json >"$folder/differences"
 
-# The line that begins with # is not a pose.
-poses=$(grep -vc '^#' "$folder/native.tum")
-others=$(grep -vc '^#' "$folder/other.tum")
+# count NAME: of poses; the line that begins with # is none.
+count() { awk '!/^#/ { ++poses } END { print poses + 0 }' "$folder/$1.tum"; }
+
+poses=$(count native)
+others=$(count other)
 pairs=$(sed -n 's/^ *"pairs": \([0-9]*\),*$/\1/p' "$folder/differences")
 m=$(largest ate_m)
 deg=$(largest ate_deg)

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -37,18 +38,21 @@ TEST_F(WorldTest, HasCarsParkedThatAreNotSurveyed) {
   ASSERT_GT(world_.parked.triangles.size(), 1000U);
   const std::vector<Eigen::Vector3f> points_m =
       survey(world_.surveyed, drive_.ground(), drive_.route().survey, drive_.seed());
+  constexpr float kNear_m = 0.1F;
+  std::vector<Eigen::Vector3f> parked_m = world_.parked.vertices_m;
+  const auto x_of = [](const Eigen::Vector3f& vertex_m) { return vertex_m.x(); };
+  std::ranges::sort(parked_m, {}, x_of);
   // Between ground clearance and waist only cars stand in the parking lane: nothing surveyed may be near
   // them.
   std::size_t looked_at = 0;
-  for (std::size_t p = 0; p < points_m.size(); p += 7) {
-    const Eigen::Vector3f& point_m = points_m[p];
+  for (const Eigen::Vector3f& point_m : points_m) {
     const Eigen::Vector2d xy_m = point_m.head<2>().cast<double>();
     const double above_m = static_cast<double>(point_m.z()) - drive_.ground().height_m(xy_m);
     if (above_m < 0.35 || above_m > 1.0) continue;
     ++looked_at;
-    for (std::size_t i = 0; i < world_.parked.vertices_m.size(); i += 3) {
-      const Eigen::Vector3f away_m = world_.parked.vertices_m[i] - point_m;
-      ASSERT_GT(away_m.norm(), 0.1F);
+    auto vertex_m = std::ranges::lower_bound(parked_m, point_m.x() - kNear_m, {}, x_of);
+    for (; vertex_m != parked_m.end() && vertex_m->x() <= point_m.x() + kNear_m; ++vertex_m) {
+      ASSERT_GT((*vertex_m - point_m).norm(), kNear_m);
     }
   }
   EXPECT_GT(looked_at, 1000U);
